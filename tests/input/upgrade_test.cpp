@@ -93,11 +93,6 @@ TEST(Upgrade, SaysWhatComponentsDoNotHave) {
   EXPECT_EQ(paths.notes,
             std::vector<std::string>{
                 "integrator.photons.emitted is left out: the components that the file names do not have it"});
-  const Upgraded planes = upgrade("old.toml",
-                                  "[render]\nintegrator = 'combined'\n[photons]\nplanes = 5\n"
-                                  "[combined]\ntechniques = ['connections', 'planes']\n");
-  EXPECT_TRUE(planes.notes.empty());
-  EXPECT_NE(planes.text.find("[integrator]\ntype = 'combined'\nplanes = 5\n"), std::string::npos) << planes.text;
 }
 
 TEST(Upgrade, ReadsValuesOfSeveralLines) {
@@ -149,10 +144,6 @@ TEST(Upgrade, ReadsNoCommentsAsValues) {
             "[integrator.indirect]\ntype = \"photons\"\n");
   EXPECT_EQ(upgraded("[render]\nintegrator = 'path'  # or 'photon'\n[distance]\nstrategy = 'delta'\n"),
             "[render]\n\n[integrator]\ntype = 'path'  # or 'photon'\n\n[integrator.distance]\ntype = 'delta'\n");
-  EXPECT_NE(upgraded("[render]\nintegrator = 'photon'  # or 'combined'\n[photons]\nplanes = 5\n"
-                     "[volume]\ngather = 'photon-planes'\n")
-                .find("[integrator.volume]\nplanes = 5\n"),
-            std::string::npos);
 }
 
 TEST(Upgrade, KeepsCommentsOfHeaders) {
@@ -174,8 +165,6 @@ TEST(Upgrade, RewritesSettingsOfExperimentsInAnyForm) {
                 "film.width = 4 }\n");
   EXPECT_EQ(upgraded("title = \"how volume.radius = 1 acts\"\n" + methods + "set.volume.radius = 2\n"),
             "title = \"how volume.radius = 1 acts\"\n" + methods + "set.integrator.volume.radius = 2\n");
-  EXPECT_EQ(upgraded(methods + "[methods.set]\nrender.integrator = 'combined'\nphotons.planes = 4\n"),
-            methods + "[methods.set]\nintegrator.type = 'combined'\nintegrator.planes = 4\n");
 }
 
 /// Nothing comes out that is not TOML, or that still has old keys.

@@ -61,7 +61,7 @@ std::vector<RenderSettings> all_choices() {
     all.push_back(chosen({{"integrator.type", "path"}, {"integrator.distance.type", std::string(info.name)}}));
   for (const EstimatorInfo& info : transmittance_estimators())
     all.push_back(chosen({{"integrator.type", "path"}, {"integrator.transmittance.type", std::string(info.name)}}));
-  all.push_back(chosen({{"integrator.type", "combined"}, {"integrator.techniques", "connections+planes"}}));
+  all.push_back(chosen({{"integrator.type", "combined"}}));
   return all;
 }
 
@@ -168,8 +168,8 @@ TEST(Setting, IsOfTheChosenComponents) {
   EXPECT_FALSE(has({{"integrator.type", "combined"}}, "integrator.transmittance.type"));
   EXPECT_FALSE(has({}, "integrator.importance.aim"));
   EXPECT_FALSE(has({{"integrator.distance.type", "mean-extinction"}}, "integrator.volume.density_floor"));
-  EXPECT_FALSE(has({{"integrator.type", "combined"}}, "integrator.planes"));
-  EXPECT_TRUE(has({{"integrator.type", "combined"}, {"integrator.techniques", "planes"}}, "integrator.planes"));
+  EXPECT_FALSE(has({{"integrator.type", "path"}}, "integrator.techniques"));
+  EXPECT_TRUE(has({{"integrator.type", "combined"}}, "integrator.techniques"));
 }
 
 TEST(Setting, IsReadAgainFromItsText) {
@@ -217,7 +217,6 @@ TEST(Setting, OfSomeComponentsSaysOfWhich) {
   EXPECT_EQ(with("integrator.importance.aim"), "[photon-map: `importons` > 0]");
   EXPECT_EQ(with("integrator.volume.length"),
             "[photon-map: `type` = `\"photon-beams\"`, `\"photon-planes\"`, `\"beams-points\"`]");
-  EXPECT_EQ(with("integrator.planes"), "[combined: `techniques` with `\"planes\"`]");
   EXPECT_EQ(with("integrator.distance.optical_step"), "[photon-map, path: `type` = `\"ray-march-adaptive\"`]");
 }
 

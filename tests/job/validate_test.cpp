@@ -125,14 +125,14 @@ TEST(Validate, BeamsOfCombinedTechniquesNeedAnEndInEveryChannel) {
   EXPECT_EQ(refused(s, endless), "");
 }
 
-TEST(Validate, LongBeamsOfCombinedTechniquesNeedAnEnd) {
+TEST(Validate, BeamsOfCombinedTechniquesNeedAnEnd) {
   RenderSettings s;
   combine(s);
-  const SceneFacts endless{.scattering_media = true, .endless = true};
-  EXPECT_EQ(refused(s, endless), "");
-  s.combined.techniques.set(Technique::long_beams, true);
-  EXPECT_EQ(refused(s, {.scattering_media = true}), "");
+  EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "");
+  const SceneFacts endless{.scattering_media = true, .endless = true, .endless_flights = true};
   EXPECT_EQ(refused(s, endless), "integrator.techniques");
+  s.combined.techniques.set(Technique::short_beams, false);
+  EXPECT_EQ(refused(s, endless), "");
 }
 
 /// What the chosen components do not have is not looked at.

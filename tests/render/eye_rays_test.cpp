@@ -211,7 +211,6 @@ TEST(EyeRays, TechniquesCombinedFindTogetherWhatTheyFindAlone) {
       settings.integrator = Integrator::combined;
       settings.volume.radius = 0.3f;
       settings.combined.heuristic = heuristic;
-      settings.combined.techniques.set(Technique::long_beams, true);
       for (const Vec3& towards : {Vec3(-2.0f, 0.3f, -2.0f), Vec3(0.7f, -0.5f, -0.7f)})
         expect_combined_alike(scene, settings, from, towards);
     }

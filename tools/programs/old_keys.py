@@ -13,8 +13,7 @@ def keys_of(program):
     if done.returncode != 0:
         return {}
     pairs = [line.split(" ", 1) for line in done.stdout.splitlines()]
-    old = {new: old for old, new in pairs if old != "surface.method"}
-    return {**old, "integrator.planes": "photons.planes"}
+    return {new: old for old, new in pairs if old != "surface.method"}
 
 
 def flat(table, path):

@@ -46,8 +46,7 @@ enum class Integrator { photon, path, combined };
 struct CombinedSettings {
   TechniqueSet techniques;
   Heuristic heuristic = Heuristic::correlation_aware;
-  bool layers = false;     // is it kept what each technique finds?
-  uint64_t planes = 1000;  // about so many photon planes in a pass, >= 1
+  bool layers = false;  // is it kept what each technique finds?
 };
 
 struct RenderSettings : PassSettings {

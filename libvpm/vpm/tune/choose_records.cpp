@@ -143,9 +143,8 @@ std::optional<MapDensities> densities_by(uint64_t photons, const Scene& scene, c
 
 bool crosses_flights(const RenderSettings& settings) {
   const TechniqueSet& techniques = settings.combined.techniques;
-  return settings.integrator == Integrator::combined
-             ? techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams)
-             : settings.volume.info().flights;
+  return settings.integrator == Integrator::combined ? techniques.has(Technique::short_beams)
+                                                     : settings.volume.info().flights;
 }
 
 std::optional<MapDensities> densities_for_records(const Scene& scene, const AutomaticSettings& automatic,

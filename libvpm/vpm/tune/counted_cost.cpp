@@ -27,7 +27,7 @@ const EyeCosts& costs_of(const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return kPaths;
   if (settings.integrator == Integrator::combined) {
     const TechniqueSet& techniques = settings.combined.techniques;
-    const bool beams = techniques.has(Technique::short_beams) || techniques.has(Technique::long_beams);
+    const bool beams = techniques.has(Technique::short_beams);
     return beams ? kCombinedWithBeams : kCombinedPoints;
   }
   return settings.volume.info().along_rays ? kMapsAlongRays : kMapsAtPoints;

@@ -54,7 +54,6 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   small.settings.guide.importons = part(static_cast<double>(settings.guide.importons));
   small.settings.volume.flights = part(static_cast<double>(settings.volume.flights));
   small.settings.volume.planes = part(static_cast<double>(settings.volume.planes));
-  small.settings.combined.planes = part(static_cast<double>(settings.combined.planes));
   return small;
 }
 

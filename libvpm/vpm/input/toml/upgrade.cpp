@@ -110,12 +110,11 @@ struct Moved {
 
 /// New keys and texts of a statement of an old key, with the new key written as `written` makes it of the whole.
 template <class Written>
-std::vector<Moved> moved(const std::string& name, const TomlPiece& piece, const OldKey& old, bool combines,
-                         Written&& written) {
+std::vector<Moved> moved(const std::string& name, const TomlPiece& piece, const OldKey& old, Written&& written) {
   if (old.old_key != "surface.method") {
-    const std::string key = combines && old.old_key == "photons.planes" ? "integrator.planes" : std::string(old.key);
-    std::string text = with_key(piece.text, piece.written_key, written(key));
-    return {{key, piece.comments, std::move(text), piece.says("photon") ? "photon-map" : text_of(piece.value)}};
+    std::string text = with_key(piece.text, piece.written_key, written(std::string(old.key)));
+    return {{std::string(old.key), piece.comments, std::move(text),
+             piece.says("photon") ? "photon-map" : text_of(piece.value)}};
   }
   const auto* const method = std::get_if<std::string>(&piece.value.value);
   if (!method)
@@ -197,14 +196,14 @@ class UpgradedScene {
  public:
   explicit UpgradedScene(const std::string& name) : name_(name) {}
 
-  void add(const TomlPiece& piece, bool combines) {
+  void add(const TomlPiece& piece) {
     const bool statement = piece.kind == TomlPiece::Kind::statement, in_old_table = is_old_table(piece.table);
     const OldKey* const old = statement ? find_old(join(piece.table, piece.key)) : nullptr;
     if (statement && in_old_table && !old)
       throw InputError(
           fmt::format("{}: '{}' of [{}] is no key of an older version, either", name_, piece.key, piece.table));
     if (in_old_table && !place_) place_ = left_.size();
-    if (old) return move(piece, *old, combines);
+    if (old) return move(piece, *old);
     if (!in_old_table) return leave(piece);
     if (piece.kind == TomlPiece::Kind::header) {
       headers_.insert(headers_.end(), piece.comments.begin(), piece.comments.end());
@@ -237,9 +236,9 @@ class UpgradedScene {
   }
 
  private:
-  void move(const TomlPiece& piece, const OldKey& old, bool combines) {
+  void move(const TomlPiece& piece, const OldKey& old) {
     const auto name_alone = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
-    for (Moved& each : moved(name_, piece, old, combines, name_alone)) {
+    for (Moved& each : moved(name_, piece, old, name_alone)) {
       std::vector<std::string>& comments = comments_of_tables_[each.key.substr(0, each.key.rfind('.'))];
       comments.insert(comments.end(), headers_.begin(), headers_.end());
       headers_.clear();
@@ -260,11 +259,6 @@ class UpgradedScene {
   std::vector<Moved> statements_;
 };
 
-/// Does this render combine techniques?
-bool names_combined(const TomlPiece& piece) {
-  return piece.key.ends_with("integrator") && find_old(join(piece.table, piece.key)) && piece.says("combined");
-}
-
 std::string upgraded_experiment(const std::string& name, const std::vector<TomlPiece>& pieces) {
   std::string text;
   for (const TomlPiece& piece : pieces) {
@@ -277,11 +271,8 @@ std::string upgraded_experiment(const std::string& name, const std::vector<TomlP
       if (piece.kind != TomlPiece::Kind::end) text += with_inline_keys(piece.text) + "\n";
       continue;
     }
-    const bool combines = std::any_of(pieces.begin(), pieces.end(), [&](const TomlPiece& other) {
-      return other.table == piece.table && other.key.ends_with("render.integrator") && other.says("combined");
-    });
     const std::string before = path.substr(own, at - own);  // "set."
-    for (const Moved& each : moved(name, piece, *old, combines, [&](const std::string& key) { return before + key; })) {
+    for (const Moved& each : moved(name, piece, *old, [&](const std::string& key) { return before + key; })) {
       append(text, each.comments);
       text += each.text + "\n";
     }
@@ -291,8 +282,7 @@ std::string upgraded_experiment(const std::string& name, const std::vector<TomlP
 
 Upgraded upgraded_scene(const std::string& name, const std::vector<TomlPiece>& pieces) {
   UpgradedScene scene(name);
-  const bool combines = std::any_of(pieces.begin(), pieces.end(), names_combined);
-  for (const TomlPiece& piece : pieces) scene.add(piece, combines);
+  for (const TomlPiece& piece : pieces) scene.add(piece);
   return scene.finish();
 }
 

@@ -1,12 +1,11 @@
-// Flights of photons that cross whole rays from the camera: short beams, as far as their photons come, and long ones,
-// as far as they could have come. With one ray, or with many that lie side by side.
+// Flights of photons that cross whole rays from the camera: with one ray, or with many that lie side by side.
 #include "vpm/base/counters.h"
 #include "vpm/integrators/combined/merge_light.h"
 
 namespace vpm {
 namespace {
 
-/// Beams of one kind, and a ray that they cross.
+/// Beams, and a ray that they cross.
 struct CrossedRay {
   const Medium& medium;
   const LightBeams& beams;
@@ -43,7 +42,6 @@ void set_flight(const FlightTerms& flight, const Rgb& power, size_t lane, Crossi
     at.before[c].set(lane, flight.before[c]);
     at.back[c].set(lane, flight.back[c]);
   }
-  at.turn.set(lane, flight.turn);
 }
 
 /// Up to kBlock crossings of those found, from number `first` on. Returns how many scatter.
@@ -70,8 +68,8 @@ uint32_t set_crossings(const CrossedRay& crossed, const PhaseFunction& phase, co
 
 }  // namespace
 
-Merged merge_beams(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work) {
-  const LightBeams& beams = context.light.beams(technique, segment.medium);
+Merged merge_beams(const CombinedContext& context, const RaySegment& segment, EyeWork& work) {
+  const LightBeams& beams = context.light.beams(segment.medium);
   if (beams.map.size() == 0) return {};
   const float radius = context.kernels.beams;
   count(work.counters.volume_queries);
@@ -80,7 +78,7 @@ Merged merge_beams(const CombinedContext& context, Technique technique, const Ra
   if (near.empty()) return {};
   const Medium& medium = context.scene.media[segment.medium];
   const CrossedRay crossed{medium, beams, work.scratch.integrals, segment.ray, radius, work.counters.walk};
-  const MergingRays rays = rays_of(segment, unit_of_beams(context.counts));
+  const MergingRays rays = rays_of(segment, context.counts.short_beams);
   MergedTotals totals;
   const auto merge = [&](const auto& light) {
     return beams.map.visit_crossings(segment.ray, near, [&](const BeamCrossings& found) {
@@ -91,7 +89,7 @@ Merged merge_beams(const CombinedContext& context, Technique technique, const Ra
       }
     });
   };
-  count(work.counters.gather.visited, with_crossing_light(context, technique, medium, merge));
+  count(work.counters.gather.visited, with_crossing_light(context, medium, merge));
   return totals.of_all().times(factor_of(context, segment));
 }
 
@@ -113,7 +111,6 @@ uint32_t set_crossings(const LightBeams& beams, const RayBlock& block, const Pha
   for (int c = 0; c < 3; ++c) at.power[c] = where_met(power[c], 0.0f);
   at.before = all_lanes(flight.before);
   at.back = all_lanes(flight.back);
-  at.turn = {flight.turn.x, flight.turn.y, flight.turn.z};
   at.adjacent = flight.adjacent;
   if (flight.round)
     for (size_t lane = 0; lane < kBlock; ++lane)
@@ -130,10 +127,9 @@ uint32_t set_crossings(const LightBeams& beams, const RayBlock& block, const Pha
 }
 
 /// Of one block, among pieces near all of the bundle.
-void merge_block(const CombinedContext& context, Technique technique, const RayBlock& block, EyeWork& work,
-                 std::span<Merged> merged) {
+void merge_block(const CombinedContext& context, const RayBlock& block, EyeWork& work, std::span<Merged> merged) {
   const MediumId medium = block.segments.front().medium;
-  const LightBeams& beams = context.light.beams(technique, medium);
+  const LightBeams& beams = context.light.beams(medium);
   GatherCounters& counters = work.counters.gather;
   MergedTotals totals;
   const auto merge = [&](const auto& light) {
@@ -148,17 +144,17 @@ void merge_block(const CombinedContext& context, Technique technique, const RayB
       count(counters.visited, found.size * merged.size());
     });
   };
-  count(counters.visited, with_crossing_light(context, technique, context.scene.media[medium], merge));
+  count(counters.visited, with_crossing_light(context, context.scene.media[medium], merge));
   const std::array<MergedSum, kBlock>& sums = totals.of_lanes();
   for (size_t i = 0; i < merged.size(); ++i) merged[i] = sums[i].times(factor_of(context, block.segments[i]));
 }
 
 }  // namespace
 
-void merge_beams(const CombinedContext& context, Technique technique, const Vec3& apex,
-                 std::span<const RaySegment> bundle, EyeWork& work, std::span<Merged> merged) {
+void merge_beams(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
+                 std::span<Merged> merged) {
   constexpr float kMostRadii = 32.0f;
-  const LightBeams& beams = context.light.beams(technique, bundle.front().medium);
+  const LightBeams& beams = context.light.beams(bundle.front().medium);
   if (beams.map.size() == 0) return;
   const float free_path = 1.0f / mean_channel(context.scene.media[bundle.front().medium].sigma_t);
   GatherCounters& counters = work.counters.gather;
@@ -167,12 +163,10 @@ void merge_beams(const CombinedContext& context, Technique technique, const Vec3
     count(counters.searches, bundle.size());
     count(counters.visited, beams.map.select(rays, work.scratch.beams));
   };
-  const auto merge = [&](const RayBlock& block, std::span<Merged> of) {
-    merge_block(context, technique, block, work, of);
-  };
-  const SearchedMap map{beams.map.bounds(), context.kernels.beams, kMostRadii, unit_of_beams(context.counts)};
+  const auto merge = [&](const RayBlock& block, std::span<Merged> of) { merge_block(context, block, work, of); };
+  const SearchedMap map{beams.map.bounds(), context.kernels.beams, kMostRadii, context.counts.short_beams};
   if (merge_together(map, free_path, apex, bundle, merged, select, merge)) return;
-  for (size_t i = 0; i < bundle.size(); ++i) merged[i] = merge_beams(context, technique, bundle[i], work);
+  for (size_t i = 0; i < bundle.size(); ++i) merged[i] = merge_beams(context, bundle[i], work);
 }
 
 }  // namespace vpm

@@ -9,7 +9,6 @@
 #include "vpm/estimate/eye_work.h"
 #include "vpm/integrators/combined/light_sub_paths.h"
 #include "vpm/photon/map/photon_beam_map.h"
-#include "vpm/photon/photon_plane.h"
 
 namespace vpm {
 
@@ -35,14 +34,7 @@ class SortedLight {
   const std::vector<LightVertex>& vertices() const { return paths_.vertices; }
   /// Of how many sub-paths these are, with sub-paths that have none.
   uint64_t connectable_paths() const { return paths_.connectable; }
-  /// Short or long ones.
-  const LightBeams& beams(Technique technique, MediumId medium) const {
-    return (technique == Technique::long_beams ? long_beams_ : short_beams_)[medium];
-  }
-  /// Of all media; powers are those of all light sub-paths together.
-  const PhotonPlaneList& planes() const { return planes_; }
-  /// By PlaneCrossing::number.
-  const FlightStart& plane_start(size_t number) const { return paths_.plane_starts[number]; }
+  const LightBeams& beams(MediumId medium) const { return beams_[medium]; }
   /// Photons on surfaces, but those straight from lights that are sampled, and in a medium.
   const VertexMap<SurfacePhotonLeaf>& on_surfaces() const { return on_surfaces_; }
   const VertexMap<MediumPhotonLeaf>& in_medium(MediumId medium) const { return in_media_[medium]; }
@@ -58,8 +50,7 @@ class SortedLight {
   VertexMap<SurfacePhotonLeaf> on_surfaces_;
   std::vector<VertexMap<MediumPhotonLeaf>> in_media_;  // by medium
   std::vector<double> scales_;                         // likewise
-  std::vector<LightBeams> short_beams_, long_beams_;   // by medium
-  PhotonPlaneList planes_;
+  std::vector<LightBeams> beams_;                      // likewise
 };
 
 /// What eye sub-paths read. Immutable while they run.

@@ -54,9 +54,8 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
     counts.points_3d = paths * kernel_size_3d(kernels.volume_kernel, kernels.points_3d);
   if (techniques.has(Technique::points_2d))
     counts.points_2d = paths * kernel_size_2d(kernels.volume_kernel, kernels.points_2d);
-  const double beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
-  if (techniques.has(Technique::short_beams)) counts.short_beams = beams;
-  if (techniques.has(Technique::long_beams)) counts.long_beams = beams;
+  if (techniques.has(Technique::short_beams))
+    counts.short_beams = paths * kernel_size_1d(kernels.volume_kernel, kernels.beams);
   counts.density_floor = settings.volume.density_floor;
   counts.heuristic = settings.combined.heuristic;
   counts.deep = counts.heuristic != Heuristic::correlation_aware || !merges_where_the_eye_looks(scene, techniques);
@@ -68,7 +67,7 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
 TechniqueCounts counts_of_kernels(const Scene& scene, const RenderSettings& settings, const MergeKernels& kernels) {
   const TechniqueSet& techniques = settings.combined.techniques;
   RenderSettings merging = settings;
-  for (const Technique technique : {Technique::connections, Technique::light_tracing, Technique::planes})
+  for (const Technique technique : {Technique::connections, Technique::light_tracing})
     merging.combined.techniques.set(technique, false);
   TechniqueCounts counts = counts_of_pass(scene, merging, kernels);
   counts.alone = {.sought = true,
@@ -83,10 +82,9 @@ RenderSettings with_shares_of(RenderSettings settings, uint64_t light_paths) {
   return settings;
 }
 
-/// A few sub-paths that are independent of those of the pass, with all their flights as planes.
+/// A few sub-paths that are independent of those of the pass.
 LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& numbers, uint64_t first, uint64_t number) {
   TechniqueCounts counts;
-  counts.plane_share = 1.0;
   counts.connections = 1.0;  // so that vertices are kept
   LightSubPaths few(tracing.scene.media.size());
   trace_light_sub_paths({tracing.scene, tracing.strategy, tracing.transmittance, counts, numbers, tracing.max_events},
@@ -95,22 +93,15 @@ LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& number
 }
 
 /// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
-/// latter has kConnections, one at the most; and which part of flights makes as many planes as are asked for. A few
-/// sub-paths tell, as weights must be known while all are traced.
+/// latter has kConnections, one at the most. A few sub-paths say that, as weights must be known while all are traced.
 void count_by_few(const LightTracing& tracing, const RenderSettings& settings, int pass, TechniqueCounts& counts) {
   const uint64_t paths = settings.photons_emitted, number = std::min(paths, kFewPaths);
-  const bool planes = settings.combined.techniques.has(Technique::planes) && !counts.alone.sought;
-  if (!counts.light && !planes) return;
+  if (!counts.light) return;
   // Numbers beyond those of the pass: at random, as points of one scrambling tell of each other.
   const PhotonNumbers numbers(PhotonSequence::random, settings.seed, static_cast<uint64_t>(pass));
   const LightSubPaths few = few_paths(tracing, numbers, paths, number);
-  const auto part = [&](double asked, size_t found) {  // of what so many light sub-paths have
-    return std::min(1.0, asked * static_cast<double>(number) / std::max(1.0, static_cast<double>(found)));
-  };
-  const auto all = static_cast<double>(paths);
-  if (counts.light) counts.connections = part(kConnections, few.vertices.size());
-  if (planes) counts.plane_share = part(static_cast<double>(settings.combined.planes) / all, few.planes.size());
-  counts.planes = all * counts.plane_share;
+  counts.connections =
+      std::min(1.0, kConnections * static_cast<double>(number) / std::max<double>(1.0, few.vertices.size()));
 }
 
 }  // namespace
@@ -138,7 +129,6 @@ CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, i
   statistics_.surface_photons = light_->on_surfaces().size();
   statistics_.volume_photons = light_->photons_in_media();
   statistics_.beams = statistics_.flights = light_->beam_count();
-  statistics_.planes = light_->planes().size();
   statistics_.photon_map_bytes = light_->memory_bytes() + splats_.capacity() * sizeof(Splat);
   statistics_.last_volume_radius = std::max({kernels_.beams, kernels_.points_2d, kernels_.points_3d});
   statistics_.last_surface_radius = kernels_.surface;
@@ -186,9 +176,6 @@ float first_radius_of_merges(const AskedGather& volume, const Scene& scene) {
 RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most) {
   RenderSettings few = settings;
   few.photons_emitted = std::min(most, settings.photons_emitted);
-  const double share = static_cast<double>(few.photons_emitted) / static_cast<double>(settings.photons_emitted);
-  few.combined.planes =
-      std::max<uint64_t>(1, static_cast<uint64_t>(share * static_cast<double>(settings.combined.planes)));
   return few;
 }
 

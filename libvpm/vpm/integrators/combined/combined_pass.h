@@ -57,7 +57,7 @@ class CombinedPass {
 /// m, of the first pass: one for merges in all media, the least that any of them has by default.
 float first_radius_of_merges(const AskedGather& volume, const Scene& scene);
 
-/// The settings of a pass with no more than so many light sub-paths, and with planes in proportion.
+/// The settings of a pass with no more than so many light sub-paths.
 RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most);
 
 /// Do techniques of the combined estimator merge, so that kernels make a bias?

@@ -58,14 +58,9 @@ bool EyeSubPath::Along::pass(const Stretch& stretch) {
   if (around.scatters() && path.at_.asks > 0.0f && !path.left_to_light_tracing()) {
     through_scattering = true;
     path.merge_along_ray(*this, interval);
-    path.merge_planes(*this, interval);
   }
   passed *= transmittance(around, integrals.integral());
   return !is_black(passed);
-}
-
-Rgb EyeSubPath::Along::to(double t) const {
-  return passed * transmittance(path.c_.scene.media[medium], path.work_.scratch.integrals.at(t).integral);
 }
 
 std::optional<Arrival> EyeSubPath::pass_through() {
@@ -230,8 +225,7 @@ void EyeSubPath::merge_along_ray(const Along& along, const Interval& interval) {
 }
 
 Merged merge_along(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work) {
-  return technique == Technique::points_2d ? merge_points(context, segment, work)
-                                           : merge_beams(context, technique, segment, work);
+  return technique == Technique::points_2d ? merge_points(context, segment, work) : merge_beams(context, segment, work);
 }
 
 void merge_along(const CombinedContext& context, Technique technique, const Vec3& apex,
@@ -239,7 +233,7 @@ void merge_along(const CombinedContext& context, Technique technique, const Vec3
   if (technique == Technique::points_2d)
     merge_points(context, apex, bundle, work, merged);
   else
-    merge_beams(context, technique, apex, bundle, work, merged);
+    merge_beams(context, apex, bundle, work, merged);
 }
 
 namespace {

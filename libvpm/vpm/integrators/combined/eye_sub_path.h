@@ -41,8 +41,6 @@ class EyeSubPath {
     bool through_scattering = false;
 
     bool pass(const Stretch& stretch);
-    /// The transmittance from the last vertex to a place on the ray, m.
-    Rgb to(double t) const;
   };
 
   void follow_branch();
@@ -93,11 +91,6 @@ class EyeSubPath {
   void merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& reflectance);
   void merge_points_3d(const Arrival& at);
   void merge_along_ray(const Along& along, const Interval& interval);
-  void merge_planes(const Along& along, const Interval& interval);
-  void merge_plane(const Along& along, const PlaneCrossing& crossing);
-  /// The collision on a plane's flight that the crossing tells, and the power that it scatters, W/m; none where there
-  /// is nothing to collide with.
-  std::optional<Arrival> turn_of_plane(const PlaneCrossing& crossing, Rgb& scattered);
 
   /// Adds what a technique finds, of which it has a share.
   void add(Technique technique, const KernelEstimate& found, double share);

@@ -4,20 +4,15 @@
 #include <cmath>
 
 namespace vpm {
-double unit_of_beams(const TechniqueCounts& counts) {
-  return counts.short_beams > 0.0 ? counts.short_beams : counts.long_beams;
-}
-
 FlightTerms flight_terms(const TechniqueCounts& counts, const Departure& from, const Rgb& before, const Vec3& origin) {
   const Leg a_metre{Rgb(1.0f), 1.0};
   const Junction there{Junction::Kind::medium, Vec3(0.0f), Rgb(1.0f)};
   const SubPathSums sums = arrive(counts, from, a_metre, there, from.point + from.direction);
-  const double unit = 1.0 / (from.forward * unit_of_beams(counts));
+  const double unit = 1.0 / (from.forward * counts.short_beams);
   FlightTerms terms;
   terms.before = before;
   terms.offset = glm::distance(from.point, origin);
   terms.parallel = from.parallel;
-  terms.turn = Vec3(sums.turn);
   if (const double back = arrival(from.from, from.direction, a_metre); back > 0.0) {
     const double behind = sums.further / counts.weigh(back);
     const double weighed = counts.heuristic == Heuristic::power ? std::sqrt(behind) : behind;

@@ -6,7 +6,7 @@
 namespace vpm {
 
 /// How a flight began of which a part, through one medium, is kept. Densities are over that of the flight's direction
-/// and over unit_of_beams(), so that floats hold them, however large a scene is.
+/// and over TechniqueCounts::short_beams, so that floats hold them, however large a scene is.
 struct FlightTerms {
   Rgb before{1.0f};       // the transmittance of the flight up to the part
   Rgb back{0.0f};         // times the transmittance back to the last vertex, summed over channels, and times the
@@ -15,14 +15,10 @@ struct FlightTerms {
   float adjacent = 0.0f;  // times the squared distance, m^2: how many connections there are over the flight
   float offset = 0.0f;    // from the last vertex to the part, m
   bool parallel = false;  // does light not spread? Then the distance counts as 1
-  Vec3 turn{0.0f};        // SubPathSums::turn, m
   const Light* round = nullptr;  // a light on a sphere that the flight began on: how densely that is sampled depends on
                                  // the place, and `adjacent` is to be multiplied by that
   Vec3 normal{0.0f};             // there, unit
 };
-
-/// The number of short beams, or of long ones where there are no short ones, times their width: TechniqueCounts', m.
-double unit_of_beams(const TechniqueCounts& counts);
 
 /// Of the part of a flight that begins at `origin`, m, through the transmittance `before`.
 FlightTerms flight_terms(const TechniqueCounts& counts, const Departure& from, const Rgb& before, const Vec3& origin);

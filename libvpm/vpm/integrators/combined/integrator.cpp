@@ -15,7 +15,6 @@
 namespace vpm {
 namespace {
 
-constexpr uint64_t kMostPlanes = 1'000'000;  // planes of a pass
 constexpr const char* kRadiusOfMerges = "of merges, in the first pass";
 
 /// Strategies whose flights have the density that the transmittance says.
@@ -30,7 +29,7 @@ void describe_combined(RenderSettings& s, Description& d) {
   Members<CombinedSettings> of(s.combined, d);
   of.add_set("techniques", &CombinedSettings::techniques, std::span<const TechniqueInfo>(kTechniques),
              &TechniqueInfo::technique, "which techniques find light; what none of them can find is missing",
-             {.usual_text = "all but `\"long-beams\"` and `\"planes\"`", .automatic = true});
+             {.usual_text = "all", .automatic = true});
   of.add("heuristic", &CombinedSettings::heuristic,
          "how techniques share a path that several find: by their densities, by the squares of these, or by densities "
          "where eye sub-paths end at the first place that does not only mirror or refract, if merges find all light "
@@ -41,10 +40,6 @@ void describe_combined(RenderSettings& s, Description& d) {
   const Members<RenderSettings> own(s, d);
   own.add("radii", &RenderSettings::radii, words_of<RadiusSchedule>(2),
           "how the radii of merges go on after the first pass");
-  if (s.combined.techniques.has(Technique::planes))
-    of.add("planes", &CombinedSettings::planes, Integers{1, kMostPlanes},
-           "about so many flights of a pass become planes, drawn by chance. Eye rays send a shadow ray for each plane "
-           "that they cross");
   d.in("integrator.photons");
   own.add("emitted", &RenderSettings::photons_emitted, Integers{1}, "light sub-paths per pass", {.automatic = true});
   own.add("sequence", &RenderSettings::photon_sequence, "what they are drawn from, as for photon maps");
@@ -60,9 +55,6 @@ void describe_combined(RenderSettings& s, Description& d) {
 
 void check_combined(const RenderSettings& s, const SceneFacts& facts) {
   const TechniqueSet& techniques = s.combined.techniques;
-  refuse_if(facts.endless && techniques.has(Technique::long_beams), "integrator.techniques",
-            "the medium of the world has no end, and long beams would have none",
-            "leave out \"long-beams\", or put the scene into a box of the medium");
   refuse_if(facts.endless_flights && techniques.has(Technique::short_beams), "integrator.techniques",
             "flights have no end in a channel that the medium of the world does not attenuate",
             "leave out \"short-beams\", or put the scene into a box of the medium");

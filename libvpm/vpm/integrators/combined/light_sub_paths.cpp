@@ -5,7 +5,6 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/path/stretches.h"
 #include "vpm/photon/recorder.h"
 #include "vpm/photon/thin_places.h"
 #include "vpm/surface/shading.h"
@@ -32,7 +31,6 @@ class LightSubPath {
  private:
   void follow() {
     for (int events = 0; events < c_.max_events; ++events) {
-      if (c_.counts.long_beams > 0.0 && is_sought()) keep_long_beams();
       const std::optional<Arrival> at = fly();
       if (!at || !go_on(*at)) return;
     }
@@ -74,7 +72,7 @@ class LightSubPath {
     for (const Track& track : tracks_) {
       const Medium& medium = c_.scene.media[track.medium];
       if (is_sought()) {
-        if (medium.scatters() && track.length > 0.0f) keep(track, medium, passed);
+        if (c_.counts.short_beams > 0.0 && medium.scatters() && track.length > 0.0f) keep(track, passed);
         keep_thin_photons(track, medium, passed);
       }
       passed *= transmittance(medium, integral_along(medium, track, out_.ledger.walk));
@@ -94,44 +92,11 @@ class LightSubPath {
     return at;
   }
 
-  /// Keeps a part of a flight as a short beam and, as chance decides, as a plane.
-  void keep(const Track& track, const Medium& medium, const Rgb& before) {
+  /// Keeps a part of a flight as a beam.
+  void keep(const Track& track, const Rgb& before) {
     const auto& [origin, direction] = track.ray;
-    if (c_.counts.short_beams > 0.0) {
-      out_.short_beams.beams[track.medium].push_back({origin, track.length, direction, track.throughput});
-      out_.short_beams.flights[track.medium].push_back(flight_terms(c_.counts, from_, before, origin));
-    }
-    if (c_.counts.plane_share == 0.0 || rng_.uniform_double() >= c_.counts.plane_share) return;
-    const Vec3 scattered = phase_sample(medium.phase, direction, rng_.uniform2());
-    const Rgb power = track.throughput / static_cast<float>(c_.counts.plane_share);
-    out_.planes.push_back({origin, track.length, direction, scattered, power, track.medium});
-    out_.plane_starts.push_back({from_, before});
-  }
-
-  /// The visitor of a flight's ray on its way to the surface that ends it: keeps long beams.
-  struct Beyond {
-    LightSubPath& path;
-    Ray ray;
-    MediumId medium;
-    Rgb passed{1.0f};
-
-    bool pass(const Stretch& stretch) {
-      if (medium == kVacuum) return true;
-      const Medium& around = path.c_.scene.media[medium];
-      if (around.scatters() && stretch.length > 0.0f) {
-        LightFlights& kept = path.out_.long_beams;
-        kept.beams[medium].push_back({ray.origin, stretch.length, ray.direction, path.state_.throughput * passed});
-        kept.flights[medium].push_back(flight_terms(path.c_.counts, path.from_, passed, ray.origin));
-      }
-      const DensityIntegral integral = density_integral(around, ray, {0.0f, stretch.length});
-      count(path.out_.ledger.walk.lookups, integral.lookups);
-      passed *= transmittance(around, integral.value);
-      return !is_black(passed);
-    }
-  };
-  void keep_long_beams() {
-    Beyond beyond{*this, state_.ray, state_.medium};
-    each_stretch(c_.scene, beyond.ray, beyond.medium, kInfinity, out_.ledger.walk, beyond);
+    out_.flights.beams[track.medium].push_back({origin, track.length, direction, track.throughput});
+    out_.flights.flights[track.medium].push_back(flight_terms(c_.counts, from_, before, origin));
   }
 
   void keep_thin_photons(const Track& track, const Medium& medium, const Rgb& before) {
@@ -171,7 +136,7 @@ class LightSubPath {
     const Junction even{Junction::Kind::medium, Vec3(0.0f), c_.scene.media[medium].sigma_t};
     const SubPathSums sums = arrive(c_.counts, from_, leg, even, point);
     out_.photons[medium].push_back(
-        {point, {from_.direction, power, sums.turn, over_colliding(even.sigma_t, leg), behind_merge(c_.counts, sums)}});
+        {point, {from_.direction, power, passing(even.sigma_t, leg), behind_merge(c_.counts, sums)}});
   }
 
   /// Keeps the vertex, and draws how the sub-path goes on.
@@ -239,15 +204,11 @@ void LightSubPaths::take_over(std::span<LightSubPaths> parts) {
   };
   join([](LightSubPaths & of) -> auto& { return of.vertices; });
   join([](LightSubPaths & of) -> auto& { return of.on_surfaces; });
-  join([](LightSubPaths & of) -> auto& { return of.planes; });
-  join([](LightSubPaths & of) -> auto& { return of.plane_starts; });
   join([](LightSubPaths & of) -> auto& { return of.splats; });
   for (size_t m = 0; m < photons.size(); ++m) {
     join([m](LightSubPaths & of) -> auto& { return of.photons[m]; });
-    join([m](LightSubPaths & of) -> auto& { return of.short_beams.beams[m]; });
-    join([m](LightSubPaths & of) -> auto& { return of.short_beams.flights[m]; });
-    join([m](LightSubPaths & of) -> auto& { return of.long_beams.beams[m]; });
-    join([m](LightSubPaths & of) -> auto& { return of.long_beams.flights[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.flights.beams[m]; });
+    join([m](LightSubPaths & of) -> auto& { return of.flights.flights[m]; });
   }
   for (const LightSubPaths& part : parts) {
     connectable += part.connectable;

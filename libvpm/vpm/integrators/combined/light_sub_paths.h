@@ -11,7 +11,6 @@
 #include "vpm/photon/ledger.h"
 #include "vpm/photon/photon_beam.h"
 #include "vpm/photon/photon_numbers.h"
-#include "vpm/photon/photon_plane.h"
 
 namespace vpm {
 
@@ -19,12 +18,6 @@ namespace vpm {
 struct LightVertex {
   Arrival at;
   Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
-};
-
-/// How a flight began of which a part, through one medium, is kept as a plane.
-struct FlightStart {
-  Departure from;
-  Rgb before{1.0f};  // the transmittance of the flight up to the part
 };
 
 /// Parts of flights, by medium.
@@ -47,13 +40,11 @@ struct LightSubPaths {
   uint64_t connectable = 0;                                      // how many these are
   std::vector<PlacedRecord<SurfacePhoton>> on_surfaces;          // but those straight from lights that are sampled
   std::vector<std::vector<PlacedRecord<MediumPhoton>>> photons;  // by medium
-  LightFlights short_beams, long_beams;
-  std::vector<PhotonPlane> planes;
-  std::vector<FlightStart> plane_starts;
+  LightFlights flights;
   std::vector<Splat> splats;
   Ledger ledger;  // emitted, counts of events, look-ups
 
-  explicit LightSubPaths(size_t media = 0) : photons(media), short_beams(media), long_beams(media) {}
+  explicit LightSubPaths(size_t media = 0) : photons(media), flights(media) {}
   /// Takes over what parts have, one after another.
   void take_over(std::span<LightSubPaths> parts);
 };

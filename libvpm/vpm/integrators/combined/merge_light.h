@@ -11,8 +11,7 @@ namespace vpm {
 
 /// Crossings of rays and beams, a lane for each. Lanes without one have no power.
 struct Crossings {
-  FloatsRgb power{}, before{}, back{};  // of the beam, and FlightTerms'
-  Floats3 turn;
+  FloatsRgb power{}, before{}, back{};       // of the beam, and FlightTerms'
   Floats adjacent{};                         // FlightTerms::adjacent times the squared distance from the last vertex
   Floats scattered{};                        // the phase function towards the eye, 1/sr
   Floats sine = 1.0f;                        // of the angle between the two
@@ -37,17 +36,15 @@ inline FloatsRgb left_of_short(const FloatsRgb& power, const Rgb& sigma_t, const
   return left;
 }
 
-/// What beams of one kind bring to rays in one medium.
+/// What beams bring to rays in one medium.
 template <bool kSquares, class PhaseFunction, class Profile>
 class CrossingLight {
  public:
-  CrossingLight(const CombinedContext& context, Technique technique, const Medium& medium, const PhaseFunction& phase,
-                Profile profile)
-      : shares_(context.counts, technique),
+  CrossingLight(const CombinedContext& context, const Medium& medium, const PhaseFunction& phase, Profile profile)
+      : shares_(context.counts),
         phase_(phase),
         profile_(profile),
         medium_(context, medium),
-        is_long_(technique == Technique::long_beams),
         grey_(medium_.extinction().grey()) {}
 
   const PhaseFunction& phase() const { return phase_; }
@@ -58,7 +55,7 @@ class CrossingLight {
     const FloatsRgb on_beam = attenuated(whole, medium_.extinction(), at.flown_integral);
     const FloatsRgb on_ray = attenuated(rays.passed, medium_.extinction(), at.seen_integral);
     const Floats share = shares_.of(crossed(rays, at, on_beam, on_ray));
-    const FloatsRgb left = is_long_ ? on_beam : grey_ ? whole : left_of_short(at.power, sigma_t, at.flown_integral);
+    const FloatsRgb left = grey_ ? whole : left_of_short(at.power, sigma_t, at.flown_integral);
     const Floats found = at.density * at.scattered / at.sine;
     FloatsRgb light;
     for (int c = 0; c < 3; ++c) light[c] = at.power[c] * left[c] * on_ray[c] * found;
@@ -78,7 +75,6 @@ class CrossingLight {
     }
     const Floats to_eye = rays.before + at.along_ray;
     return {.sine = at.sine,
-            .determinant = abs(dot(at.turn, rays.along)),
             .passed = mean_channel(flown),
             .colliding = mean_channel(colliding),
             .seen = mean_channel(seen),
@@ -92,15 +88,15 @@ class CrossingLight {
   const PhaseFunction& phase_;
   Profile profile_;
   MergingMedium medium_;
-  bool is_long_, grey_;
+  bool grey_;
 };
 
 /// Calls use(CrossingLight) for the medium's phase function, and the kernel and heuristic of the pass.
 template <class Use>
-auto with_crossing_light(const CombinedContext& context, Technique technique, const Medium& medium, Use&& use) {
+auto with_crossing_light(const CombinedContext& context, const Medium& medium, Use&& use) {
   return with_types_of_merge<1>(context, medium, [&](const auto& phase, auto profile, auto squares) {
-    return use(CrossingLight<squares(), std::decay_t<decltype(phase)>, decltype(profile)>(context, technique, medium,
-                                                                                          phase, profile));
+    return use(
+        CrossingLight<squares(), std::decay_t<decltype(phase)>, decltype(profile)>(context, medium, phase, profile));
   });
 }
 
@@ -112,10 +108,10 @@ inline Rgb factor_of(const CombinedContext& context, const RaySegment& segment) 
 
 /// Photons and rays, a lane for each pair. Lanes of density 0 add nothing.
 struct PhotonsBeside {
-  FloatsRgb power{};         // MediumPhoton's
-  Floats passing{}, sent{};  // likewise, and the next two
+  FloatsRgb power{};  // MediumPhoton's
+  Floats passing{};   // likewise, and the next two
   Floats adjacent{}, further{};
-  Floats sine{}, determinant{};         // PhotonsBesideRays
+  Floats sine{};                        // PhotonsBesideRays
   Floats scattered{};                   // the phase function towards the eye, 1/sr
   Floats q{};                           // the squared distance from the ray over that of the radius
   Floats along_ray{}, seen_integral{};  // up to the photon: m from the ray's origin, and of density, m
@@ -144,9 +140,7 @@ class PhotonLight {
     const Floats density = select(counts, at.density, 1.0f), relative = medium_.relative(density);
     const Floats to_eye = rays.before + at.along_ray;
     const Floats share = shares_.of({.sine = at.sine,
-                                     .determinant = at.determinant,
                                      .passing = at.passing,
-                                     .sent = at.sent,
                                      .adjacent = at.adjacent,
                                      .further = at.further,
                                      .phase = at.scattered,

@@ -12,58 +12,51 @@ namespace vpm {
 
 /// Crossings of rays and beams, a lane for each.
 struct CrossedBeams {
-  Floats sine;         // of the angle between them
-  Floats determinant;  // Angles::determinant, m
-  Floats passed;       // the transmittance from the flight's last vertex, a mean over channels
-  Floats colliding;    // likewise of extinction there times that transmittance, 1/m
-  Floats seen;         // of extinction there times the transmittance to the eye, 1/m
-  Floats kept;         // Junction::kept
-  Floats back;         // FlightTerms::back times the transmittance, summed over channels, and the phase function, 1/sr
-  Floats adjacent;     // FlightTerms::adjacent times the squared distance from the last vertex
-  Floats splats;       // of the ray's start, RaySegment::adjacent, times the squared distance from there, over
-                       // unit_of_beams()
+  Floats sine;       // of the angle between them
+  Floats passed;     // the transmittance from the flight's last vertex, a mean over channels
+  Floats colliding;  // likewise of extinction there times that transmittance, 1/m
+  Floats seen;       // of extinction there times the transmittance to the eye, 1/m
+  Floats kept;       // Junction::kept
+  Floats back;       // FlightTerms::back times the transmittance, summed over channels, and the phase function, 1/sr
+  Floats adjacent;   // FlightTerms::adjacent times the squared distance from the last vertex
+  Floats splats;     // of the ray's start, RaySegment::adjacent, times the squared distance from there, over
+                     // TechniqueCounts::short_beams
 };
 
-/// The share of short or of long beams in what they bring to a ray that comes straight from the camera, or over mirrors
+/// The share of beams in what they bring to a ray that comes straight from the camera, or over mirrors
 /// and glass alone. It is what merges_in_medium() has over all_at_merge(), where all terms are times the densities of
 /// coming to the crossing from either side, over those of the flight's and the ray's directions. `kSquares` says
 /// whether the heuristic weighs by squares.
 template <bool kSquares>
 class SharesOfBeams {
  public:
-  SharesOfBeams(const TechniqueCounts& counts, Technique technique)
-      : short_(over_unit(counts, counts.short_beams)),
-        long_(over_unit(counts, counts.long_beams)),
-        planes_(over_unit(counts, counts.planes)),
-        points_2d_(over_unit(counts, counts.points_2d)),
-        in_balls_(over_unit(counts, counts.merges_points_3d(true) ? counts.points_3d : 0.0)),
-        is_long_(technique == Technique::long_beams) {}
+  explicit SharesOfBeams(const TechniqueCounts& counts)
+      : points_2d_(over_beams(counts, counts.points_2d)),
+        in_balls_(over_beams(counts, counts.merges_points_3d(true) ? counts.points_3d : 0.0)) {}
 
   Floats of(const CrossedBeams& at) const {
-    const Floats short_beams = weigh(short_ * at.sine * at.passed), long_beams = weigh(long_ * at.sine);
-    Floats all = short_beams + long_beams + weigh(planes_ * at.determinant);
+    const Floats beams = weigh(at.sine * at.passed);
+    Floats all = beams;
     all += weigh(points_2d_ * at.kept * at.colliding);
     all += weigh(in_balls_ * at.kept * at.colliding * at.seen);
     all += weigh(at.adjacent * at.seen) + weigh(at.back * at.seen);
     all += weigh(at.splats * at.colliding);
-    return select(all > 0.0f, (is_long_ ? long_beams : short_beams) / all, 0.0f);
+    return select(all > 0.0f, beams / all, 0.0f);
   }
 
  private:
-  static float over_unit(const TechniqueCounts& counts, double x) {
-    return static_cast<float>(std::min(x / unit_of_beams(counts), 1e30));  // beside so much no share is left
+  static float over_beams(const TechniqueCounts& counts, double x) {
+    return static_cast<float>(std::min(x / counts.short_beams, 1e30));  // of so much no share is left
   }
   static Floats weigh(const Floats& x) { return kSquares ? x * x : x; }
 
-  float short_, long_, planes_, points_2d_, in_balls_;
-  bool is_long_;
+  float points_2d_, in_balls_;
 };
 
 /// Photons and rays, a lane for each pair. What photons have is as it would be where the density is 1.
 struct PhotonsBesideRays {
   Floats sine;               // of the angle between the photon's flight and the ray
-  Floats determinant;        // Angles::determinant, m
-  Floats passing, sent;      // OverColliding, m
+  Floats passing;            // of the photon's flight, m
   Floats adjacent, further;  // BehindMerge, times behind_scale()
   Floats phase;              // of scattering towards the eye, 1/sr
   Floats density;            // of the medium at the place on the ray, > 0
@@ -82,16 +75,12 @@ class SharesOfPoints {
   /// In a medium of that extinction at density 1, 1/m, a mean over channels, > 0.
   SharesOfPoints(const TechniqueCounts& counts, float sigma_t)
       : in_balls_(of_points(counts, counts.merges_points_3d(true) ? counts.points_3d * sigma_t : 0.0)),
-        short_beams_(of_points(counts, counts.short_beams)),
-        long_beams_(of_points(counts, counts.long_beams)),
-        planes_(of_points(counts, counts.planes)) {}
+        short_beams_(of_points(counts, counts.short_beams)) {}
 
   Floats of(const PhotonsBesideRays& at) const {
     const Floats per_kept = 1.0f / at.kept;
-    const Floats flights = weigh(short_beams_ * at.sine * at.passing) + weigh(long_beams_ * at.sine * at.sent) +
-                           weigh(planes_ * at.determinant * at.sent);
     Floats all = 1.0f + weigh(in_balls_ * at.density * at.colliding);
-    all += weigh(per_kept / at.density) * flights;
+    all += weigh(per_kept / at.density) * weigh(short_beams_ * at.sine * at.passing);
     all += (at.adjacent + weigh(at.phase) * at.further) * weigh(at.colliding * per_kept);
     all += weigh(at.splats * per_kept);
     return 1.0f / all;
@@ -104,7 +93,7 @@ class SharesOfPoints {
   }
   static Floats weigh(const Floats& x) { return kSquares ? x * x : x; }
 
-  float in_balls_, short_beams_, long_beams_, planes_;
+  float in_balls_, short_beams_;
 };
 
 }  // namespace vpm

@@ -16,16 +16,6 @@ double colliding(const Rgb& sigma_t, const Leg& leg) {
   return std::max(kLeastDensity, double{mean_channel(sigma_t * leg.transmittance)});
 }
 
-/// SubPathSums::turn behind a vertex in a medium, at another one.
-Vec3d turn_of(const TechniqueCounts& counts, const Departure& departure, const Leg& leg) {
-  const Vec3d turn = glm::cross(Vec3d(departure.travel), Vec3d(departure.direction));
-  const Rgb& sigma_t = departure.from.sigma_t;
-  if (departure.way == SubPath::light) return turn * over_colliding(sigma_t, departure.arrived).passing;
-  // Planes need collide neither at the departure nor here: of the densities there the distance remains.
-  return departure.first ? turn * (counts.planes * leg.per_square() / colliding(sigma_t, departure.arrived))
-                         : Vec3d(0.0);
-}
-
 }  // namespace
 
 Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex) {
@@ -102,11 +92,8 @@ Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward&
   if (from.kind != Junction::Kind::medium) return departure;
   departure.merges = true;
   departure.first = first;
-  departure.travel = at.vertex.travel;
   departure.arrived = at.leg;
-  departure.angles = angles_between(at.vertex.travel, way == SubPath::light ? sums.turn : Vec3d(0.0), onward.direction);
-  if (way == SubPath::eye)
-    departure.planes = onward.reverse * std::abs(glm::dot(sums.turn, Vec3d(onward.direction))) / sums.density;
+  departure.sine = sine_between(at.vertex.travel, onward.direction);
   return departure;
 }
 
@@ -122,11 +109,10 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
-    const OverColliding from_light = over_colliding(sigma_t, light ? departure.arrived : leg);
-    behind += merges_in_medium(counts, departure.from, from_light, light ? leg : departure.arrived, departure.angles,
+    const Leg &from_light = light ? departure.arrived : leg, &from_eye = light ? leg : departure.arrived;
+    behind += merges_in_medium(counts, departure.from, passing(sigma_t, from_light), from_eye, departure.sine,
                                departure.first)
                   .sum();
-    behind += counts.weigh(departure.planes * from_light.passing);
   }
   SubPathSums sums;
   sums.density = std::max(kLeastDensity, departure.forward * arrival(at, departure.direction, leg) * leg.per_square());
@@ -135,8 +121,6 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   sums.adjacent = departure.adjacent;
   sums.straight = departure.light != nullptr;
   sums.seen = departure.camera;
-  if (at.kind == Junction::Kind::medium && departure.merges && counts.planes > 0.0)
-    sums.turn = turn_of(counts, departure, leg);
   if (departure.light)
     sums.adjacent = sampled_density(*departure.light, point,
                                     {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
@@ -144,21 +128,16 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
   return sums;
 }
 
-OverColliding over_colliding(const Rgb& sigma_t, const Leg& leg) {
-  const double sent = 1.0 / colliding(sigma_t, leg);
-  return {leg.mean() * sent, sent};
-}
+double passing(const Rgb& sigma_t, const Leg& leg) { return leg.mean() * (1.0 / colliding(sigma_t, leg)); }
 
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, const OverColliding& from_light,
-                            const Leg& from_eye, const Angles& angles, bool first) {
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing, const Leg& from_eye,
+                            double sine, bool first) {
   MergeTerms terms;
   terms.points_3d = counts.merges_points_3d(first) ? counts.weigh(counts.points_3d * there.kept) : 0.0;
   if (!first) return terms;
   const double eye = 1.0 / colliding(there.sigma_t, from_eye);  // as its sub-path need not collide here, m
   terms.points_2d = counts.weigh(counts.points_2d * there.kept * eye);
-  terms.short_beams = counts.weigh(counts.short_beams * angles.sine * from_light.passing * eye);
-  terms.long_beams = counts.weigh(counts.long_beams * angles.sine * from_light.sent * eye);
-  terms.planes = counts.weigh(counts.planes * angles.determinant * from_light.sent * eye);
+  terms.short_beams = counts.weigh(counts.short_beams * sine * passing * eye);
   return terms;
 }
 
@@ -166,15 +145,7 @@ MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
   return {.surface = counts.merges_surfaces(first) ? counts.weigh(counts.surfaces) : 0.0};
 }
 
-Angles angles_between(const Vec3& light, const Vec3d& turn, const Vec3& eye) {
-  return {glm::length(glm::cross(Vec3d(light), Vec3d(eye))), std::abs(glm::dot(turn, Vec3d(eye)))};
-}
-
-SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Vec3& travel, double passing) {
-  SubPathSums sums = eye;
-  sums.further += counts.weigh(std::abs(glm::dot(eye.turn, Vec3d(travel))) * passing);
-  return sums;
-}
+double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }
 
 BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums) {
   const double density = counts.weigh(sums.density);
@@ -185,9 +156,7 @@ ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Depar
                                       const Departure& eye, const SubPathSums& at_light) {
   const double connected = counts.weigh(at_eye.adjacent);
   const double behind = counts.weigh(eye.forward) * at_eye.further;
-  const SubPathSums beyond =
-      with_turn(counts, at_light, light.travel, over_colliding(light.from.sigma_t, light.arrived).passing);
-  const double before = counts.weigh(light.forward) * beyond.further;
+  const double before = counts.weigh(light.forward) * at_light.further;
   const double all = connected + behind + before;
   return {connected / all, behind / all};
 }

@@ -8,7 +8,7 @@
 // the light, C_0 the light that is sampled, C_{k-1} the connection to the camera. Merging at x_i finds it with
 //   M_i = N m_i f_0 ... f_i r_i ... r_k
 // for N light sub-paths and a kernel of the size m_i, with a factor for each sub-path that need not end there. Where
-// x_i is the first vertex from the eye that is not specular, m_i holds all kernels, and planes, elsewhere only the
+// x_i is the first vertex from the eye that is not specular, m_i holds all kernels, elsewhere only the
 // kernels of surfaces and of points in balls. Light that comes straight from a light onto a surface is neither merged
 // there nor brought to the camera from there, where lights are sampled: samples of lights have less noise than
 // densities say.
@@ -17,8 +17,7 @@
 // vertex,
 //   S_i = r_i ((c_{i-1} + S_{i-1}) / f_i + N m_i),
 // and in the same way from the eye. Of S_{i-1}, at x_i only its last factor r_{i-1} is not known, and of that only the
-// density of the direction, which depends on where the path goes on to: this is why SubPathSums has its members. Planes
-// at x_i depend on three directions, the light's last two flights and the eye's: SubPathSums::turn holds two of them.
+// density of the direction, which depends on where the path goes on to: this is why SubPathSums has its members.
 // With the power heuristic all terms are squared. See [Georgiev2012] for connections and merges on surfaces, and
 // [Krivanek2014] for all merges in media, where media are homogeneous. In grids no factor changes, as the transmittance
 // of each leg is known exactly.
@@ -35,7 +34,7 @@ namespace vpm {
 /// Of a pass that looks for the light alone which no technique without a kernel finds: that of lights which no ray
 /// hits, behind mirrors or glass from wherever a sub-path could be connected.
 struct KernelsAlone {
-  bool sought = false;  // where connections are used, which find all that planes could: their flights meet in a medium
+  bool sought = false;
   // What is done in the other passes:
   bool connects_deep = false;  // TechniqueCounts::deep
   bool traces_light = false;   // are light sub-paths connected to the camera?
@@ -49,12 +48,10 @@ struct TechniqueCounts {
   bool each_light = false;   // is each of them sampled at a vertex, or one that is drawn from all?
   double splats = 0.0;       // light sub-paths for each eye sub-path of a pixel; 0: no light tracing
   // The light sub-paths times the sizes of kernels, 1 over the integrals of their squares; 0: not merged.
-  double surfaces = 0.0;                       // m^2
-  double points_3d = 0.0;                      // m^3
-  double points_2d = 0.0;                      // m^2
-  double short_beams = 0.0, long_beams = 0.0;  // m
-  double planes = 0.0;                         // of all light sub-paths, for each flight of one: they have no kernel
-  double plane_share = 0.0;                    // of flights, the part that becomes planes
+  double surfaces = 0.0;     // m^2
+  double points_3d = 0.0;    // m^3
+  double points_2d = 0.0;    // m^2
+  double short_beams = 0.0;  // m
   // Do sub-paths from the eye meet others beyond their first vertex that is not specular? If not, they go on from there
   // only to see what lights they run into, and places that chance leads them to are not merged: beyond that vertex, and
   // where a ray from the camera collides, if merges along the whole ray are made.
@@ -66,8 +63,8 @@ struct TechniqueCounts {
   /// Are these merges made at a vertex from the eye, which is the first that is not specular, or not?
   bool merges_surfaces(bool first) const { return surfaces > 0.0 && (first || deep); }
   bool merges_points_3d(bool first) const { return points_3d > 0.0 && (deep || (first && !merges_along_rays())); }
-  /// Do merges along rays find all light that those where sub-paths collide find? Planes do not.
-  bool merges_along_rays() const { return points_2d > 0.0 || short_beams > 0.0 || long_beams > 0.0; }
+  /// These find all light that merges where sub-paths collide find.
+  bool merges_along_rays() const { return points_2d > 0.0 || short_beams > 0.0; }
 
   /// A density, or a number, as the heuristic weighs it.
   double weigh(double x) const { return heuristic == Heuristic::power ? x * x : x; }
@@ -106,11 +103,6 @@ struct SubPathSums {
   double further = 0.0;   // the sum over all techniques behind that, over the density of the direction back
   bool straight = false;  // does the light come straight from a light that is sampled?
   bool seen = false;      // does the camera see the vertex, without mirrors or glass in between?
-  // Where the vertex before is in a medium, for planes that turn there. Of a sub-path from the light: the cross product
-  // of its last two directions, times OverColliding::passing of the former leg, m. From the eye, and if the vertex
-  // before is the first that is not specular: the same product, times all that `further` lacks but for the light's
-  // flight.
-  Vec3d turn{0.0};
 };
 
 /// A sub-path at a vertex that it has come to.
@@ -128,13 +120,8 @@ struct Onward {
   double forward = 1.0, reverse = 1.0;  // 1/sr
 };
 
-/// How the directions of two legs that meet in a medium lie to each other.
-struct Angles {
-  double sine = 0.0;         // of the angle between them
-  double determinant = 0.0;  // of the light's last two, the former as in SubPathSums::turn, and the eye's, m
-};
-/// Of directions of travel (unit), where the light's sub-path has that SubPathSums::turn.
-Angles angles_between(const Vec3& light, const Vec3d& turn, const Vec3& eye);
+/// The sine of the angle between two directions (unit).
+double sine_between(const Vec3& a, const Vec3& b);
 
 /// A sub-path as it leaves a vertex, or its start.
 struct Departure {
@@ -154,10 +141,8 @@ struct Departure {
   bool merges = false;
   bool first = false;  // is the vertex the first from the eye that is not specular?
   SubPath way = SubPath::light;
-  Vec3 travel{0.0f};    // along the other leg, unit
-  Leg arrived;          // the other leg
-  Angles angles;        // of a sub-path from the eye, the sine alone
-  double planes = 0.0;  // of a sub-path from the eye: what planes add to `behind`, but for the light's flight
+  Leg arrived;        // the other leg
+  double sine = 0.0;  // of the angle between the two
 };
 
 /// A start on a light that is chosen with the probability `chosen`, at a point with that normal.
@@ -177,28 +162,17 @@ SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, co
 
 /// The densities of merges at one place, as the heuristic weighs them, over the densities of its two sub-paths.
 struct MergeTerms {
-  double surface = 0.0, points_3d = 0.0, points_2d = 0.0, short_beams = 0.0, long_beams = 0.0, planes = 0.0;
+  double surface = 0.0, points_3d = 0.0, points_2d = 0.0, short_beams = 0.0;
 
-  double sum() const { return surface + points_3d + points_2d + short_beams + long_beams + planes; }
+  double sum() const { return surface + points_3d + points_2d + short_beams; }
 };
-/// How far a leg takes photons for each that collides at its end, m.
-struct OverColliding {
-  double passing = 0.0;  // those that come so far: short beams pass where their photons need not collide
-  double sent = 0.0;     // those that would come so far if nothing stood on the way, as long beams do
-
-  /// The same where the density of the leg's end is `factor` times as large.
-  OverColliding over(double factor) const { return {passing / factor, sent / factor}; }
-};
-OverColliding over_colliding(const Rgb& sigma_t, const Leg& leg);
-/// In a medium, between a leg from the light, of which over_colliding() is given, and one from the eye; `first` as in
-/// depart().
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, const OverColliding& from_light,
-                            const Leg& from_eye, const Angles& angles, bool first);
+/// How far a leg takes photons for each that collides at its end, m: beams pass where their photons need not collide.
+double passing(const Rgb& sigma_t, const Leg& leg);
+/// In a medium, between a leg from the light, of which passing() is given, and one from the eye, whose directions have
+/// that sine; `first` as in depart().
+MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing, const Leg& from_eye,
+                            double sine, bool first);
 MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
-
-/// The sums of a sub-path from the eye where it meets light that arrives along `travel` (unit) through a leg of that
-/// OverColliding::passing: with the planes that turn there.
-SubPathSums with_turn(const TechniqueCounts& counts, const SubPathSums& eye, const Vec3& travel, double passing);
 
 /// What the techniques behind a vertex that merges add to the sum of all densities there.
 struct BehindMerge {
@@ -216,7 +190,7 @@ inline float finite_density(double density) { return static_cast<float>(std::min
 
 /// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
 /// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the
-/// other one. The eye's sums are those with_turn(), where they differ.
+/// other one.
 inline double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const BehindMerge& light,
                            double back_to_light, const BehindMerge& eye, double back_to_eye) {
   return merges.sum() + light.sum(counts.weigh(back_to_light)) + eye.sum(counts.weigh(back_to_eye));

@@ -38,13 +38,11 @@ template <class PhaseFunction>
 void set_photons(const MediumPhotonLeaf& leaf, const PhaseFunction& phase, const Vec3& along, PhotonsBeside& at) {
   at.power = {lanes_of(leaf.power_r), lanes_of(leaf.power_g), lanes_of(leaf.power_b)};
   at.passing = lanes_of(leaf.passing);
-  at.sent = lanes_of(leaf.sent);
   at.adjacent = lanes_of(leaf.adjacent);
   at.further = lanes_of(leaf.further);
   const Floats3 travel = Floats3::of(leaf.travel_x, leaf.travel_y, leaf.travel_z);
   const Floats3 across = cross(along, travel);
   at.sine = sqrt(dot(across, across));
-  at.determinant = abs(dot(along, Floats3::of(leaf.turn_x, leaf.turn_y, leaf.turn_z)));
   at.scattered = phase.value(travel, -along);
 }
 
@@ -73,11 +71,9 @@ PhotonsBeside photon_beside(const MediumPhotonLeaf& leaf, size_t p, const RayBlo
   const Floats place = select(beside.near, beside.places, 0.0f);
   return {.power = all_lanes(leaf.power(p)),
           .passing = leaf.passing[p],
-          .sent = leaf.sent[p],
           .adjacent = leaf.adjacent[p],
           .further = leaf.further[p],
           .sine = sqrt(dot(across, across)),
-          .determinant = abs(dot(leaf.turn(p), along)),
           .scattered = phase.value(travel, block.lanes.towards_eye),
           .q = select(beside.near, beside.distance2 * (1.0f / (block.radius * block.radius)), 1.0f),
           .along_ray = place,
@@ -173,15 +169,13 @@ void EyeSubPath::merge_points_3d(const Arrival& at) {
   for (int c = 0; c < 3; ++c)
     each[c] *= at.junction.sigma_t[c] > 0.0f ? medium.albedo()[c] / at.junction.sigma_t[c] : 0.0f;
   const double scale = c_.light.scale_in(vertex.medium);
+  const BehindMerge eye = behind_merge(c_.counts, at.sums);
   count(work_.counters.volume_queries);
   count(work_.counters.gather.searches);
   const auto merge = [&](const MediumPhoton& photon, float distance2) {
     const float phase = phase_density(medium, photon.travel, -vertex.travel);
-    const OverColliding arrived = photon.arrived.over(vertex.density);
-    const MergeTerms merges =
-        merges_in_medium(c_.counts, at.junction, arrived, at.leg,
-                         angles_between(photon.travel, photon.turn, vertex.travel), at_.only_specular);
-    const BehindMerge eye = behind_merge(c_.counts, with_turn(c_.counts, at.sums, photon.travel, arrived.passing));
+    const MergeTerms merges = merges_in_medium(c_.counts, at.junction, photon.passing / vertex.density, at.leg,
+                                               sine_between(photon.travel, vertex.travel), at_.only_specular);
     const double all =
         all_at_merge(c_.counts, merges, photon.behind.over(scale * c_.counts.weigh(vertex.density)), phase, eye, phase);
     add_merged(Technique::points_3d, each * photon.power * phase, kernel(distance2), merges.points_3d / all);

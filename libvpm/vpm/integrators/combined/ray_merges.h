@@ -14,8 +14,8 @@ struct Merged {
   Rgb unweighted{0.0f};
 };
 
-/// The techniques that merge whole rays, but for planes.
-inline constexpr std::array kRayTechniques{Technique::points_2d, Technique::short_beams, Technique::long_beams};
+/// The techniques that merge whole rays.
+inline constexpr std::array kRayTechniques{Technique::points_2d, Technique::short_beams};
 
 /// One of these. The scratch of `work` has the density integrals along the segment, unless the medium is homogeneous.
 Merged merge_along(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work);
@@ -29,8 +29,8 @@ void merge_along(const CombinedContext& context, Technique technique, const Vec3
 Merged merge_points(const CombinedContext& context, const RaySegment& segment, EyeWork& work);
 void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
                   std::span<Merged> merged);
-Merged merge_beams(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work);
-void merge_beams(const CombinedContext& context, Technique technique, const Vec3& apex,
-                 std::span<const RaySegment> bundle, EyeWork& work, std::span<Merged> merged);
+Merged merge_beams(const CombinedContext& context, const RaySegment& segment, EyeWork& work);
+void merge_beams(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
+                 std::span<Merged> merged);
 
 }  // namespace vpm

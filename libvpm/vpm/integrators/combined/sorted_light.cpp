@@ -30,15 +30,12 @@ SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, cons
     in_media_.push_back(VertexMap<MediumPhotonLeaf>(paths_.photons[m], reach));
     paths_.photons[m] = {};
   }
-  short_beams_ = sorted_beams(paths_.short_beams, kernels.beams, scale);
-  long_beams_ = sorted_beams(paths_.long_beams, kernels.beams, scale);
-  planes_ = PhotonPlaneList(std::exchange(paths_.planes, {}));
+  beams_ = sorted_beams(paths_.flights, kernels.beams, scale);
 }
 
 size_t SortedLight::beam_count() const {
   size_t sum = 0;
-  for (const auto* beams : {&short_beams_, &long_beams_})
-    for (const LightBeams& of_medium : *beams) sum += of_medium.map.size();
+  for (const LightBeams& of_medium : beams_) sum += of_medium.map.size();
   return sum;
 }
 
@@ -50,11 +47,9 @@ size_t SortedLight::photons_in_media() const {
 
 size_t SortedLight::memory_bytes() const {
   size_t bytes = on_surfaces_.memory_bytes();
-  bytes += planes_.memory_bytes() + paths_.plane_starts.capacity() * sizeof(FlightStart);
   for (const VertexMap<MediumPhotonLeaf>& map : in_media_) bytes += map.memory_bytes();
-  for (const auto* beams : {&short_beams_, &long_beams_})
-    for (const LightBeams& of_medium : *beams)
-      bytes += of_medium.map.memory_bytes() + of_medium.flights.capacity() * sizeof(FlightTerms);
+  for (const LightBeams& of_medium : beams_)
+    bytes += of_medium.map.memory_bytes() + of_medium.flights.capacity() * sizeof(FlightTerms);
   return bytes;
 }
 

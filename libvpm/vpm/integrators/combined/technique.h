@@ -9,21 +9,10 @@ namespace vpm {
 
 /// A path from a light to the eye is found by a sub-path from the light and one from the eye. These are connected; or
 /// the light's is connected to the camera itself; or they are merged at a vertex, within a kernel: at a surface, or in
-/// a medium where both have collided, or only the light's, or neither, where a flight crosses the ray of the eye: as
-/// far as its photon comes, or as far as it could have come. Or the ray crosses a plane, without a kernel: all places
-/// that a photon comes to if it collides anywhere on one flight and is scattered into one direction. Those whose eye's
-/// sub-path has not collided are looked for along rays that only mirrors and glass have turned since they left the
-/// camera.
-enum class Technique : uint32_t {
-  connections,
-  light_tracing,
-  surface_merging,
-  points_3d,
-  points_2d,
-  short_beams,
-  long_beams,
-  planes
-};
+/// a medium where both have collided, or only the light's, or neither, where a flight crosses the ray of the eye. Those
+/// whose eye's sub-path has not collided are looked for along rays that only mirrors and glass have turned since they
+/// left the camera.
+enum class Technique : uint32_t { connections, light_tracing, surface_merging, points_3d, points_2d, short_beams };
 
 struct TechniqueInfo {
   Technique technique;
@@ -31,34 +20,30 @@ struct TechniqueInfo {
   std::string_view summary;
 };
 /// All, in the order of Technique.
-inline constexpr std::array<TechniqueInfo, 8> kTechniques{
+inline constexpr std::array<TechniqueInfo, 6> kTechniques{
     {{Technique::connections, "connections", "sub-paths connected by a line, lights sampled, and lights run into"},
      {Technique::light_tracing, "light-tracing", "vertices of light sub-paths connected to the camera"},
      {Technique::surface_merging, "surface-merging", "photons on surfaces around where an eye sub-path meets these"},
      {Technique::points_3d, "points-3d", "photons in media around where an eye sub-path collides"},
      {Technique::points_2d, "points-2d", "photons in media around whole rays from the camera"},
-     {Technique::short_beams, "short-beams", "flights of photons that cross whole rays from the camera"},
-     {Technique::long_beams, "long-beams", "the same flights, each to the surface that ends its ray"},
-     {Technique::planes, "planes", "planes of all places that flights may scatter photons to"}}};
+     {Technique::short_beams, "short-beams", "flights of photons that cross whole rays from the camera"}}};
 
-/// A set of techniques.
+/// A set of techniques: all, unless told otherwise.
 class TechniqueSet {
  public:
-  /// All but long beams and planes, which cost more than they save in noise (papers/combined.md).
   constexpr TechniqueSet() = default;
   constexpr bool has(Technique technique) const { return (bits_ & bit(technique)) != 0; }
   constexpr void set(Technique technique, bool in) { bits_ = in ? bits_ | bit(technique) : bits_ & ~bit(technique); }
   /// Do any merge sub-paths in media, within kernels?
   constexpr bool merge_in_media() const {
-    return has(Technique::points_3d) || has(Technique::points_2d) || has(Technique::short_beams) ||
-           has(Technique::long_beams);
+    return has(Technique::points_3d) || has(Technique::points_2d) || has(Technique::short_beams);
   }
   bool operator==(const TechniqueSet&) const = default;
 
  private:
   static constexpr uint32_t bit(Technique technique) { return 1u << static_cast<uint32_t>(technique); }
 
-  uint32_t bits_ = ((1u << kTechniques.size()) - 1) & ~bit(Technique::long_beams) & ~bit(Technique::planes);
+  uint32_t bits_ = (1u << kTechniques.size()) - 1;
 };
 
 /// How techniques that find the same path share it: in proportion to their densities, or to the squares of these

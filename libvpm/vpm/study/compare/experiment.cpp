@@ -13,14 +13,14 @@ namespace vpm {
 namespace {
 
 /// A value as TOML writes it.
-std::string text_of(const Node& node) {
+std::string toml_text(const Node& node) {
   if (const auto* text = std::get_if<std::string>(&node.value)) return "\"" + *text + "\"";
   if (const auto* integer = std::get_if<int64_t>(&node.value)) return std::to_string(*integer);
   if (const auto* number = std::get_if<double>(&node.value)) return fmt::format("{}", *number);
   if (const auto* flag = std::get_if<bool>(&node.value)) return *flag ? "true" : "false";
   if (!node.array()) fail_at(node.place, "a setting cannot be " + kind_of(node));
   std::string all;
-  for (const Node& element : *node.array()) all += (all.empty() ? "" : ", ") + text_of(element);
+  for (const Node& element : *node.array()) all += (all.empty() ? "" : ", ") + toml_text(element);
   return "[" + all + "]";
 }
 
@@ -51,7 +51,8 @@ std::vector<Change> settings_in(TableReader& reader, const std::string& key) {
 
 std::vector<std::string> read_settings(TableReader& reader, const std::string& key) {
   std::vector<std::string> options;
-  for (const Change& setting : settings_in(reader, key)) options.push_back(setting.key + "=" + text_of(*setting.value));
+  for (const Change& setting : settings_in(reader, key))
+    options.push_back(setting.key + "=" + toml_text(*setting.value));
   return components_first(std::move(options));
 }
 
@@ -99,7 +100,7 @@ std::vector<ComparedScene> read_scenes(TableReader& root, const RenderedReferenc
 /// A value in a method's name: words without quotes.
 std::string short_text(const Node& node) {
   const auto* word = std::get_if<std::string>(&node.value);
-  return word ? *word : text_of(node);
+  return word ? *word : toml_text(node);
 }
 
 /// Every combination of the values that [product] lists, the last key's changing fastest.
@@ -120,7 +121,7 @@ std::vector<Method> read_product(TableReader& root) {
       for (const Node& value : *values) {
         Method next = method;
         next.name += (next.name.empty() ? "" : " ") + short_text(value);
-        next.settings.push_back(setting.key + "=" + text_of(value));
+        next.settings.push_back(setting.key + "=" + toml_text(value));
         combined.push_back(std::move(next));
       }
     methods = std::move(combined);

@@ -116,8 +116,7 @@ std::vector<Check> compare_gatherings(const Subject& subject, const Effort& effo
   std::vector<Check> checks;
   for (auto& [name, settings] :
        gatherings(photon_settings(subject, effort.count(3'000, 8'000)), media, surfaces, effort.count(0, 1) > 0)) {
-    const bool long_beams =
-        settings.volume.length == BeamLength::long_beams || settings.combined.techniques.has(Technique::long_beams);
+    const bool long_beams = settings.volume.length == BeamLength::long_beams;
     if (long_beams && scene.world_medium != kVacuum) continue;  // they have no end
     settings.seed = effort.seed_of(subject.name + name);
     const int passes = static_cast<int>(effort.count(20, 64));

@@ -26,7 +26,7 @@ namespace {
 constexpr uint64_t kPhotons = 200;  // of a total of 1 W
 // What regions' shares are off by at most, of the whole: as VolumeRegion and SurfaceRegion say.
 constexpr double kBallError = 0.023, kDiscError = 0.02;
-const Vec3 kUp(0.0f, 0.0f, 1.0f);
+const Vec3 kUpwards(0.0f, 0.0f, 1.0f);
 
 /// Where photons are: everywhere evenly; where x > 0 alone; or three times as dense beyond the sheets as between them.
 enum class Lit { evenly, half, beyond };
@@ -82,7 +82,7 @@ Scene make_scene(bool flat, const Place& place) {
 std::vector<Photon> even_photons(bool flat, const Place& place, Rng& rng) {
   std::vector<Photon> photons(kPhotons);
   for (Photon& p : photons) {
-    p = {2.0f * Vec3(rng.uniform(), rng.uniform(), flat ? 0.5f : rng.uniform()) - 1.0f, PackedDirection(-kUp),
+    p = {2.0f * Vec3(rng.uniform(), rng.uniform(), flat ? 0.5f : rng.uniform()) - 1.0f, PackedDirection(-kUpwards),
          Rgb(1.0f)};
     // Not on the sheet itself, which belongs to both of its sides.
     if (place.lit == Lit::half) p.position.x = std::max(std::abs(p.position.x), kClose);
@@ -185,7 +185,7 @@ double radius_of_nearest(const std::vector<Photon>& photons, const Place& place,
 }
 
 Hit on_square(const Scene& scene, const Vec3& point) {
-  return scene.geometry.intersect({point + 0.01f * kUp, -kUp}).value();
+  return scene.geometry.intersect({point + 0.01f * kUpwards, -kUpwards}).value();
 }
 
 /// Fluence over sigma_t = 1/m in the volume, irradiance on the plane; each may count what it corrects.
@@ -199,9 +199,9 @@ MapEstimate estimator(bool flat, const Scene& scene, const Vec3& point, const Ga
     };
   const Hit hit = on_square(scene, point);
   return [&scene, hit, settings](const PhotonMap& map, GatherCounters& counters) {
-    const SurfaceRegion region(scene, hit, kUp, settings);
+    const SurfaceRegion region(scene, hit, kUpwards, settings);
     Neighbours near;
-    return surface_irradiance(hit.position, kUp, BoundedMap{map, region, GatherWork{counters, near}}).value.g;
+    return surface_irradiance(hit.position, kUpwards, BoundedMap{map, region, GatherWork{counters, near}}).value.g;
   };
 }
 
@@ -212,7 +212,7 @@ Shares shares_of(bool flat, const Scene& scene, const Place& place, const Gather
             [&](float radius) { return VolumeRegion(scene, 0, place.point, settings.kernel).share(radius).inside; }};
   const Hit hit = on_square(scene, place.point);
   return {flat, place, settings,
-          [&](float radius) { return SurfaceRegion(scene, hit, kUp, settings).share(radius).inside; }};
+          [&](float radius) { return SurfaceRegion(scene, hit, kUpwards, settings).share(radius).inside; }};
 }
 
 std::vector<Check> check_place(bool flat, const Place& place, GatherMode mode, const Effort& effort) {

@@ -16,11 +16,11 @@ namespace vpm {
 
 namespace {
 
-const Vec3 kNormal = glm::normalize(Vec3(0.3f, 0.8f, -0.4f));
+const Vec3 kUpright = glm::normalize(Vec3(0.3f, 0.8f, -0.4f));
 
 /// A direction of travel towards the surface's outside (or, turned round, its inside) at that angle of incidence.
 Vec3 arriving(double angle, bool from_outside) {
-  const Vec3 side = from_outside ? kNormal : -kNormal;
+  const Vec3 side = from_outside ? kUpright : -kUpright;
   return -direction_about(side, static_cast<float>(2.0 * std::pow(std::sin(0.5 * angle), 2.0)), 1.0f);
 }
 
@@ -28,14 +28,14 @@ Vec3 arriving(double angle, bool from_outside) {
 std::vector<Check> check_diffuse(bool from_outside, const Effort& effort) {
   constexpr size_t kRings = 6, kCells = kRings * kSectors;
   const Material material = Lambertian{Rgb(0.7f)};
-  const Vec3 travel = arriving(1.0, from_outside), near = from_outside ? kNormal : -kNormal;
+  const Vec3 travel = arriving(1.0, from_outside), near = from_outside ? kUpright : -kUpright;
   const std::string name = fmt::format("diffuse, from {}", from_outside ? "outside" : "inside");
   const auto samples =
       sample_moments(kCells + 2, effort.count(100'000, 10'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-        const Scatter scatter = sample_scatter(material, kNormal, travel, rng.uniform(), rng.uniform2());
+        const Scatter scatter = sample_scatter(material, kUpright, travel, rng.uniform(), rng.uniform2());
         const double cosine = 1.0 - away_from(near, scatter.direction);
         out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(near, scatter.direction)] = cosine > 0.0;
-        const ScatterValue value = scatter_value(material, kNormal, travel, uniform_sphere(rng.uniform2()));
+        const ScatterValue value = scatter_value(material, kUpright, travel, uniform_sphere(rng.uniform2()));
         out[kCells] = 4.0 * kPiD * value.value.g;
         out[kCells + 1] = 4.0 * kPiD * value.pdf;
       });
@@ -48,12 +48,12 @@ std::vector<Check> check_diffuse(bool from_outside, const Effort& effort) {
 /// Glass, from either side: the mirror's law or Snell's for each drawn direction, weight 1 for photons, and radiance
 /// scaled by 1/eta^2 where it passes.
 std::vector<Check> check_glass(float ior, bool from_outside, double angle, const Effort& effort) {
-  const Vec3 travel = arriving(angle, from_outside), near = from_outside ? kNormal : -kNormal;
+  const Vec3 travel = arriving(angle, from_outside), near = from_outside ? kUpright : -kUpright;
   const double eta = from_outside ? ior : 1.0 / ior, sine = std::min(1.0, std::sin(angle) / eta);  // of refraction
   const std::string name = fmt::format("glass, {:.1f} rad from {}", angle, from_outside ? "outside" : "inside");
   const auto samples =
       sample_moments(2, effort.count(2'000, 100'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-        const Scatter scatter = sample_scatter(Dielectric{ior}, kNormal, travel, rng.uniform(), rng.uniform2());
+        const Scatter scatter = sample_scatter(Dielectric{ior}, kUpright, travel, rng.uniform(), rng.uniform2());
         const double ratio = scatter.transmitted ? eta : 1.0;
         const double along = scatter.transmitted ? -std::sqrt(1.0 - sine * sine) : std::cos(angle);
         const Vec3d direction(scatter.direction), n(near);
@@ -75,15 +75,15 @@ Check check_pane(const Effort& effort) {
   const auto samples =
       sample_moments(1, effort.count(20'000, 1'000'000), effort.seed_of("pane"), [&](Rng& rng, double* out) {
         const float choice = rng.uniform();
-        out[0] = !sample_scatter(ThinDielectric{kIor}, kNormal, travel, choice, rng.uniform2()).transmitted;
+        out[0] = !sample_scatter(ThinDielectric{kIor}, kUpright, travel, choice, rng.uniform2()).transmitted;
       });
   return check_probability("pane of glass, 1.2 rad, reflected", samples[0], 2.0 * reflected / (1.0 + reflected));
 }
 
 Check check_mirror() {
   const Vec3 travel = arriving(0.8, true);
-  const Scatter scatter = sample_scatter(Mirror{}, kNormal, travel, 0.5f, Vec2(0.5f));
-  return check_bound("mirror, off its direction", glm::distance(scatter.direction, glm::reflect(travel, kNormal)), 0.0,
+  const Scatter scatter = sample_scatter(Mirror{}, kUpright, travel, 0.5f, Vec2(0.5f));
+  return check_bound("mirror, off its direction", glm::distance(scatter.direction, glm::reflect(travel, kUpright)), 0.0,
                      1e-6);
 }
 
@@ -92,7 +92,7 @@ Check check_mirror() {
 /// pi/4], 1 - ln 2. Phong's lobe is whole along the normal.
 std::vector<Check> check_rough_albedos() {
   const auto albedo = [](const Material& material) {
-    return LobeCells({material, kNormal, -kNormal}).integrate().near;
+    return LobeCells({material, kUpright, -kUpright}).integrate().near;
   };
   const RoughConductor perfect{Rgb(1.0f), Rgb(1e6f), 1.0f};
   return {check_bound("perfect metal, roughness 1, seen along its normal", albedo(perfect), 1.0 - std::log(2.0), 1e-3),
@@ -106,13 +106,13 @@ Check check_furnace_of_phong(const Effort& effort) {
   double exact = 0.0;
   for (int i = 0; i < kAngles; ++i) {
     const double angle = std::acos(std::sqrt((i + 0.5) / kAngles));
-    exact += LobeCells({phong, kNormal, arriving(angle, true)}).integrate().near / kAngles;
+    exact += LobeCells({phong, kUpright, arriving(angle, true)}).integrate().near / kAngles;
   }
   const auto samples =
       sample_moments(1, effort.count(20'000, 2'000'000), effort.seed_of("phong"), [&](Rng& rng, double* out) {
-        const Vec3 travel = -cosine_hemisphere(kNormal, rng.uniform2());
+        const Vec3 travel = -cosine_hemisphere(kUpright, rng.uniform2());
         const float choice = rng.uniform();
-        out[0] = sample_scatter(phong, kNormal, travel, choice, rng.uniform2()).weight.g;
+        out[0] = sample_scatter(phong, kUpright, travel, choice, rng.uniform2()).weight.g;
       });
   return check_mean("furnace outside of Phong", samples[0], exact, 2.0 * LobeCells::kError);
 }
@@ -139,9 +139,9 @@ std::vector<Check> check_furnaces(const Effort& effort) {
       const std::string name = fmt::format("furnace {} of {}", from_outside ? "outside" : "inside", what);
       const auto samples = sample_moments(
           1, effort.count(20'000, 2'000'000), effort.seed_of(name), [&, &material = material](Rng& rng, double* out) {
-            const Vec3 travel = -cosine_hemisphere(from_outside ? kNormal : -kNormal, rng.uniform2());
+            const Vec3 travel = -cosine_hemisphere(from_outside ? kUpright : -kUpright, rng.uniform2());
             const float choice = rng.uniform();
-            out[0] = sample_scatter(material, kNormal, travel, choice, rng.uniform2()).weight.g;
+            out[0] = sample_scatter(material, kUpright, travel, choice, rng.uniform2()).weight.g;
           });
       // The losses are integrals by a rule, and lie on straight lines between cosines.
       if (samples[0].variance() == 0.0)
@@ -161,7 +161,7 @@ Check check_metal() {
   const std::complex<double> index(0.3, 2.7), across = std::sqrt(index * index - (1.0 - cosine * cosine));
   const double perpendicular = std::norm((cosine - across) / (cosine + across));
   const double parallel = std::norm((index * index * cosine - across) / (index * index * cosine + across));
-  const Scatter scatter = sample_scatter(Conductor{Rgb(0.3f), Rgb(2.7f)}, kNormal, travel, 0.5f, Vec2(0.5f));
+  const Scatter scatter = sample_scatter(Conductor{Rgb(0.3f), Rgb(2.7f)}, kUpright, travel, 0.5f, Vec2(0.5f));
   return check_bound("smooth metal, reflectance", scatter.weight.g, 0.5 * (perpendicular + parallel), 1e-6);
 }
 
@@ -194,7 +194,7 @@ std::vector<Check> check_rough_materials(const Effort& effort) {
     for (const bool from_outside : {true, false})
       for (const double angle : angles) {
         const std::string name = fmt::format("{}, {} rad from {}", what, angle, from_outside ? "outside" : "inside");
-        const RoughIncidence in{material, kNormal, arriving(angle, from_outside)};
+        const RoughIncidence in{material, kUpright, arriving(angle, from_outside)};
         append(checks, check_lobes(name, in, effort.count(50'000, 500'000), effort));
       }
   }

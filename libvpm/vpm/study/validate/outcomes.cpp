@@ -15,7 +15,7 @@
 namespace vpm {
 namespace {
 
-const Rgb kPower(1.0f, 0.3f, 2.0f);
+const Rgb kPowerBefore(1.0f, 0.3f, 2.0f);
 const Vec3 kTravel = glm::normalize(Vec3(0.6f, -0.7f, 0.2f));
 
 std::vector<Check> check_roulette(const Effort& effort) {
@@ -37,14 +37,14 @@ template <class Draw>
 std::vector<Check> check_kept(const std::string& name, const Rgb& kept, const Effort& effort, Draw&& draw) {
   const auto samples =
       sample_moments(3, effort.count(40'000, 10'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-        PathState state{{Vec3(0.0f), kTravel}, 0, kPower};
+        PathState state{{Vec3(0.0f), kTravel}, 0, kPowerBefore};
         if (!draw(state, rng)) return;
         for (int c = 0; c < 3; ++c) out[c] = state.throughput[c];
       });
   std::vector<Check> checks;
   for (size_t c = 0; c < 3; ++c) {
     const auto channel = static_cast<int>(c);
-    checks.push_back(check_mean(name + kOfChannel[c], samples[c], double{kPower[channel]} * kept[channel]));
+    checks.push_back(check_mean(name + kOfChannel[c], samples[c], double{kPowerBefore[channel]} * kept[channel]));
   }
   return checks;
 }

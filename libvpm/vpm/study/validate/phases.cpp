@@ -15,14 +15,14 @@
 namespace vpm {
 namespace {
 
-struct NamedPhase {
+struct TestedPhase {
   std::string name;
   Phase phase;
   double mean_cosine = 0.0;
 };
 
-std::vector<NamedPhase> phases() {
-  std::vector<NamedPhase> all{{"isotropic", Isotropic{}, 0.0}, {"Rayleigh", Rayleigh{}, 0.0}};
+std::vector<TestedPhase> phases() {
+  std::vector<TestedPhase> all{{"isotropic", Isotropic{}, 0.0}, {"Rayleigh", Rayleigh{}, 0.0}};
   for (const float g : {-0.9f, -0.4f, 0.0f, 0.3f, 0.8f, 0.99f})
     all.push_back({fmt::format("Henyey-Greenstein, g = {:.2g}", g), HenyeyGreenstein{g}, g});
   return all;
@@ -36,7 +36,7 @@ struct PhaseLaw {
   double mean_cosine = 0.0, mean_square = 0.0;  // of the cosine
 };
 
-PhaseLaw phase_law(const NamedPhase& named) {
+PhaseLaw phase_law(const TestedPhase& named) {
   constexpr int kPieces = 40'000;
   PhaseLaw law;
   law.backward = named.mean_cosine < 0.0;
@@ -54,15 +54,15 @@ PhaseLaw phase_law(const NamedPhase& named) {
   return law;
 }
 
-constexpr size_t kRings = 12;  // cells of the cosine, about equally probable
+constexpr size_t kRingsOfPhases = 12;  // cells of the cosine, about equally probable
 
-std::vector<Check> check_phase(const NamedPhase& named, const Effort& effort) {
+std::vector<Check> check_phase(const TestedPhase& named, const Effort& effort) {
   const PhaseLaw law = phase_law(named);
   const double total = law.cumulative.back();
   std::vector<double> ends, shares;  // of the rings
   double before = 0.0;
-  for (size_t ring = 1; ring <= kRings; ++ring) {
-    const double target = total * static_cast<double>(ring) / kRings;
+  for (size_t ring = 1; ring <= kRingsOfPhases; ++ring) {
+    const double target = total * static_cast<double>(ring) / kRingsOfPhases;
     const auto place = std::lower_bound(law.cumulative.begin(), law.cumulative.end() - 1, target);
     const auto i = static_cast<size_t>(place - law.cumulative.begin());
     ends.push_back(law.away[i]);
@@ -70,7 +70,7 @@ std::vector<Check> check_phase(const NamedPhase& named, const Effort& effort) {
     before = law.cumulative[i];
   }
   const Vec3 travel = glm::normalize(Vec3(0.3f, -0.8f, 0.5f)), peak = law.backward ? -travel : travel;
-  constexpr size_t kCells = kRings * kSectors;
+  constexpr size_t kCells = kRingsOfPhases * kSectors;
   const auto samples = sample_moments(
       kCells + 1, effort.count(100'000, 10'000'000), effort.seed_of(named.name), [&](Rng& rng, double* out) {
         const Vec3 direction = phase_sample(named.phase, travel, rng.uniform2());
@@ -94,7 +94,7 @@ std::vector<Check> check_phase(const NamedPhase& named, const Effort& effort) {
 std::vector<Experiment> phase_experiments() {
   return {{0, "phase functions", [](const Effort& effort) {
              std::vector<Check> checks;
-             for (const NamedPhase& phase : phases()) append(checks, check_phase(phase, effort));
+             for (const TestedPhase& phase : phases()) append(checks, check_phase(phase, effort));
              return checks;
            }}};
 }

@@ -20,7 +20,7 @@ namespace {
 
 // Of a total of 1 W in a cube or square of side 2 m; around rays so many that the faces of the cube, where balls of ten
 // photons are larger, lie outside of the discs.
-constexpr uint64_t kPhotons = 200, kPhotonsAroundRays = 2000;
+constexpr uint64_t kPhotonsOfMaps = 200, kPhotonsAroundRays = 2000;
 
 /// Photons that travel down, uniform over [-1, 1]^3 or over its section z = 0.
 std::vector<Photon> even_photons(uint64_t count, bool flat, Rng& rng) {
@@ -35,7 +35,7 @@ std::vector<Photon> even_photons(uint64_t count, bool flat, Rng& rng) {
 /// Fluence over sigma_t = 1/m in the volume, irradiance on the plane, both at a point off the centre.
 double estimate(bool flat, const GatherSettings& settings, Rng& rng) {
   const Vec3 point(0.1f, -0.05f, 0.0f);
-  const PhotonMap map = make_photon_map(even_photons(kPhotons, flat, rng), settings, kPhotons);
+  const PhotonMap map = make_photon_map(even_photons(kPhotonsOfMaps, flat, rng), settings, kPhotonsOfMaps);
   return flat ? surface_irradiance(point, Vec3(0.0f, 0.0f, 1.0f), map).value.g : fluence(Rgb(1.0f), point, map).g;
 }
 
@@ -66,9 +66,9 @@ std::vector<Check> check_corrected(bool flat, const Effort& effort) {
         fmt::format("{} kernel, corrected in a curved density {}", kernel.name, flat ? "on a plane" : "in a volume");
     const auto samples =
         sample_moments(1, effort.count(4'500, 60'000), effort.seed_of(name), [&](Rng& rng, double* out) {
-          std::vector<Photon> photons = even_photons(kPhotons, flat, rng);
+          std::vector<Photon> photons = even_photons(kPhotonsOfMaps, flat, rng);
           for (Photon& p : photons) p.power = Rgb(1.0f + 4.0f * glm::dot(p.position - point, p.position - point));
-          const PhotonMap map = make_photon_map(std::move(photons), settings, kPhotons);
+          const PhotonMap map = make_photon_map(std::move(photons), settings, kPhotonsOfMaps);
           const auto power = [](const Vec3&, const Rgb& of_photon) { return of_photon; };
           const KernelEstimate found =
               flat ? kernel_sum<2>(map, point, AnyPhoton{}, power) : kernel_sum<3>(map, point, AnyPhoton{}, power);
@@ -83,9 +83,9 @@ std::vector<Check> check_corrected(bool flat, const Effort& effort) {
 Check check_controlled(const Effort& effort) {
   const std::string name = "at most 4 photons in a cube, fixed radius in a volume";
   const auto samples = sample_moments(1, effort.count(4'500, 60'000), effort.seed_of(name), [](Rng& rng, double* out) {
-    std::vector<Photon> photons = even_photons(kPhotons, false, rng);
+    std::vector<Photon> photons = even_photons(kPhotonsOfMaps, false, rng);
     control_density(photons, 0.6f, 4);
-    const PhotonMap map = make_photon_map(photons, {.radius = 0.5f}, kPhotons);
+    const PhotonMap map = make_photon_map(photons, {.radius = 0.5f}, kPhotonsOfMaps);
     out[0] = fluence(Rgb(1.0f), Vec3(0.1f, -0.05f, 0.0f), map).g;
   });
   return check_mean(name, samples[0], 1.0 / 8.0);

@@ -17,7 +17,7 @@ namespace vpm {
 namespace {
 
 /// A map of the world onto another one: a turn or a mirror, times a scale.
-struct Change {
+struct Variation {
   std::string name;
   Mat3d turn{1.0};
   double scale = 1.0;
@@ -27,7 +27,7 @@ struct Change {
   Vec3 direction(const Vec3d& d) const { return Vec3(glm::normalize(turn * d)); }
 };
 
-TriangleMesh changed(TriangleMesh mesh, const Change& change) {
+TriangleMesh changed(TriangleMesh mesh, const Variation& change) {
   for (Vec3& p : mesh.positions) p = change.point(Vec3d(p));
   if (glm::determinant(change.turn) < 0.0)
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
@@ -35,7 +35,7 @@ TriangleMesh changed(TriangleMesh mesh, const Change& change) {
 }
 
 /// Voxels of 1/4 m that fill [-1, 1]^3, random.
-std::shared_ptr<const DensityGrid> changed_grid(const Change& change) {
+std::shared_ptr<const DensityGrid> changed_grid(const Variation& change) {
   GridFrame frame;
   frame.index_to_world = Mat4d(0.25 * change.scale * change.turn);
   frame.lo = Vec3i(-4);
@@ -47,7 +47,7 @@ std::shared_ptr<const DensityGrid> changed_grid(const Change& change) {
 }
 
 /// Coloured fog in a box over a floor, a sphere of glass in it, a spot.
-Scene changed_scene(const Change& change) {
+Scene changed_scene(const Variation& change) {
   Scene scene;
   Medium fog;
   fog.sigma_t = Rgb(0.8f, 1.2f, 2.0f) / static_cast<float>(change.scale);
@@ -74,7 +74,7 @@ enum Quantity : size_t { in_fog, on_floor, away, here, seen, quantities };
 
 /// Absorbed in the fog, absorbed by the floor, escaped (W); fluence at a point (W) and radiance of the film (W/sr)
 /// times the scale's square.
-std::vector<Moments> measure(const Change& change, const Effort& effort) {
+std::vector<Moments> measure(const Variation& change, const Effort& effort) {
   const Scene scene = changed_scene(change);
   const auto strategy = make_distance_strategy({});
   const GatherSettings gather{GatherMode::radius, static_cast<float>(0.5 * change.scale), 0, KernelKind::epanechnikov};
@@ -104,10 +104,10 @@ std::vector<Check> check_changes(const Effort& effort) {
   const Mat3d mirrored(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
   std::vector<Check> checks;
   const auto base = measure({.name = "none"}, effort);
-  for (const Change& change :
-       {Change{.name = "1000 times as large", .scale = 1000.0}, Change{.name = "a thousandth as large", .scale = 1e-3},
-        Change{.name = "mirrored", .turn = mirrored}, Change{.name = "turned", .turn = turned},
-        Change{.name = "twice the photons", .photons = 200}}) {
+  for (const Variation& change :
+       {Variation{.name = "1000 times as large", .scale = 1000.0},
+        Variation{.name = "a thousandth as large", .scale = 1e-3}, Variation{.name = "mirrored", .turn = mirrored},
+        Variation{.name = "turned", .turn = turned}, Variation{.name = "twice the photons", .photons = 200}}) {
     const auto found = measure(change, effort);
     static constexpr std::array<const char*, quantities> kNames{"absorbed in fog", "absorbed by the floor", "escaped",
                                                                 "fluence", "radiance seen"};

@@ -51,32 +51,19 @@ SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
   return traced;
 }
 
-double term_of(const MergeTerms& terms, Found::By by) {
-  switch (by) {
-    case Found::By::surface:
-      return terms.surface;
-    case Found::By::points_3d:
-      return terms.points_3d;
-    default:
-      return terms.planes;
-  }
-}
-
 /// As photons around rays from the camera have it.
 double share_along_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, size_t i) {
   const Junction& at = path.junctions[i];
   const double sigma_t = mean_channel(at.sigma_t);
   MediumPhotonLeaf leaf;
-  leaf.set(0, {path.direction(i - 1), Rgb(1.0f), traced.light[i].sums.turn, over_colliding(at.sigma_t, path.leg(i - 1)),
+  leaf.set(0, {path.direction(i - 1), Rgb(1.0f), passing(at.sigma_t, path.leg(i - 1)),
                behind_merge(counts, traced.light[i].sums).over(1.0 / behind_scale(counts, sigma_t))});
   const Departure& eye = traced.eye_leaves[i + 1];
   const double to_eye = path.leg(i).distance;
   PhotonsBesideRays beside{};
   beside.density.set(0, 1.0f);
   beside.sine.set(0, glm::length(glm::cross(leaf.travel(0), path.direction(i))));
-  beside.determinant.set(0, std::abs(glm::dot(leaf.turn(0), path.direction(i))));
   beside.passing.set(0, leaf.passing[0]);
-  beside.sent.set(0, leaf.sent[0]);
   beside.adjacent.set(0, leaf.adjacent[0]);
   beside.further.set(0, leaf.further[0]);
   beside.phase.set(0, static_cast<float>(density_on(path, i, true)));
@@ -90,9 +77,7 @@ double share_along_ray(const WholePath& path, const TechniqueCounts& counts, con
 }
 
 /// As beams that rays from the camera cross have it.
-double share_across_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced,
-                        const Found& found) {
-  const size_t i = found.at;
+double share_across_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, size_t i) {
   const Junction& at = path.junctions[i];
   const Rgb &flown = path.transmittances[i - 1], &seen = path.transmittances[i];
   const FlightTerms flight = flight_terms(counts, traced.light_leaves[i - 1], Rgb(1.0f), path.points[i - 1]);
@@ -100,7 +85,6 @@ double share_across_ray(const WholePath& path, const TechniqueCounts& counts, co
   const float adjacent = adjacent_at(flight, path.points[i], path.direction(i - 1), distance);
   CrossedBeams crossed{};
   crossed.sine.set(0, glm::length(glm::cross(path.direction(i - 1), path.direction(i))));
-  crossed.determinant.set(0, std::abs(glm::dot(flight.turn, path.direction(i))));
   crossed.passed.set(0, mean_channel(flown));
   crossed.colliding.set(0, mean_channel(at.sigma_t * flown));
   crossed.seen.set(0, mean_channel(at.sigma_t * seen));
@@ -109,10 +93,9 @@ double share_across_ray(const WholePath& path, const TechniqueCounts& counts, co
   crossed.adjacent.set(0, adjacent * (flight.parallel ? 1.0f : distance * distance));
   const Departure& eye = traced.eye_leaves[i + 1];
   const double to_eye = path.leg(i).distance;
-  crossed.splats.set(0, static_cast<float>(eye.adjacent / eye.forward * to_eye * to_eye / unit_of_beams(counts)));
-  const Technique technique = found.by == Found::By::short_beams ? Technique::short_beams : Technique::long_beams;
-  return double{counts.heuristic == Heuristic::power ? SharesOfBeams<true>(counts, technique).of(crossed)[0]
-                                                     : SharesOfBeams<false>(counts, technique).of(crossed)[0]};
+  crossed.splats.set(0, static_cast<float>(eye.adjacent / eye.forward * to_eye * to_eye / counts.short_beams));
+  return double{counts.heuristic == Heuristic::power ? SharesOfBeams<true>(counts).of(crossed)[0]
+                                                     : SharesOfBeams<false>(counts).of(crossed)[0]};
 }
 
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
@@ -131,17 +114,18 @@ double share_of(const WholePath& path, const TechniqueCounts& counts, const SubP
     return found.by == By::run_into ? shares.run_into : shares.connected;
   }
   if (found.by == By::points_2d) return share_along_ray(path, counts, traced, i);
-  if (found.by == By::short_beams || found.by == By::long_beams) return share_across_ray(path, counts, traced, found);
+  if (found.by == By::short_beams) return share_across_ray(path, counts, traced, i);
   const Junction& at = path.junctions[i];
-  const SubPathSums& light = traced.light[i].sums;
-  const OverColliding from_light = over_colliding(at.sigma_t, path.leg(i - 1));
-  const SubPathSums eye = with_turn(counts, traced.eye[i].sums, path.direction(i - 1), from_light.passing);
-  const Angles angles = angles_between(path.direction(i - 1), light.turn, path.direction(i));
-  const MergeTerms terms = at.kind == Junction::Kind::surface
-                               ? merges_on_surface(counts, first_from_eye(path, i))
-                               : merges_in_medium(counts, at, from_light, path.leg(i), angles, first_from_eye(path, i));
-  return term_of(terms, found.by) / all_at_merge(counts, terms, behind_merge(counts, light), density_on(path, i, false),
-                                                 behind_merge(counts, eye), density_on(path, i, true));
+  const SubPathSums &light = traced.light[i].sums, &eye = traced.eye[i].sums;
+  const bool first = first_from_eye(path, i);
+  const double sine = sine_between(path.direction(i - 1), path.direction(i));
+  const MergeTerms terms =
+      at.kind == Junction::Kind::surface
+          ? merges_on_surface(counts, first)
+          : merges_in_medium(counts, at, passing(at.sigma_t, path.leg(i - 1)), path.leg(i), sine, first);
+  const double all = all_at_merge(counts, terms, behind_merge(counts, light), density_on(path, i, false),
+                                  behind_merge(counts, eye), density_on(path, i, true));
+  return (found.by == By::surface ? terms.surface : terms.points_3d) / all;
 }
 
 TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
@@ -155,8 +139,6 @@ TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {
   counts.points_3d = number();
   counts.points_2d = number();
   counts.short_beams = number();
-  counts.long_beams = number();
-  counts.planes = number();
   counts.heuristic = heuristic;
   if (heuristic == Heuristic::correlation_aware) counts.deep = false;
   return counts;

@@ -18,7 +18,7 @@ namespace {
 constexpr float kStep = 2.0f;  // of the biased estimators, voxels
 
 /// A medium, the part of the test's ray through it, and how many estimates a quick run makes there.
-struct Subject {
+struct TestedEstimator {
   std::string name;
   Medium medium;
   Interval stretch = test_stretch();
@@ -27,9 +27,9 @@ struct Subject {
 
 /// Every kind of field in three channels; one whose grid the ray enters and leaves; and one through which so little
 /// light passes, in all channels, that tracking goes on by roulette.
-std::vector<Subject> subjects() {
+std::vector<TestedEstimator> subjects() {
   const Rgb sigma_t(0.3f, 0.6f, 1.2f);  // 1/m
-  std::vector<Subject> all{{"homogeneous", make_medium(nullptr, sigma_t)}};
+  std::vector<TestedEstimator> all{{"homogeneous", make_medium(nullptr, sigma_t)}};
   const std::vector<TestField> fields = test_fields();
   for (const TestField& field : fields) all.push_back({field.name, make_medium(field.grid, sigma_t)});
   all.push_back({"sparse grid from border to border", make_medium(fields[3].grid, sigma_t), {0.0f, 3.0f}, 100'000});
@@ -45,7 +45,7 @@ struct Steps {
   int count;
   double length;  // m
 
-  Steps(const Subject& subject, double step)
+  Steps(const TestedEstimator& subject, double step)
       : medium(subject.medium),
         stretch(medium.clip(ray, subject.stretch)),
         count(medium.homogeneous() ? 1 : static_cast<int>(std::ceil(stretch.length() / (step * medium.voxel_size())))),
@@ -84,7 +84,7 @@ double mean_of_jackknife(const Steps& steps, double sigma_t) {
 }
 
 /// The exact mean of an estimator that is biased, its bias included.
-std::optional<double> biased_mean(std::string_view estimator, const Subject& subject, int channel) {
+std::optional<double> biased_mean(std::string_view estimator, const TestedEstimator& subject, int channel) {
   const Steps steps(subject, kStep);
   if (estimator == "ray-march") return mean_of_march(steps, subject.medium.sigma_t[channel]);
   if (estimator == "jackknife") return mean_of_jackknife(steps, subject.medium.sigma_t[channel]);
@@ -108,7 +108,7 @@ std::vector<Check> estimates_by(const EstimatorInfo& info, float comb, const Eff
   const auto estimator = make_transmittance_estimator(
       {std::string(info.name), among(info.parameters, {{"step", kStep}, {"samples", comb}})});
   std::vector<Check> checks;
-  for (const Subject& subject : subjects()) {
+  for (const TestedEstimator& subject : subjects()) {
     const Medium& medium = subject.medium;
     const double integral = looked_up_integral(medium, ray, subject.stretch.t0, subject.stretch.t1);
     const std::string name =

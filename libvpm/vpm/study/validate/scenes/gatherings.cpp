@@ -62,9 +62,6 @@ void append_combined(NamedSettings& all, const RenderSettings& base, bool media,
     sets.push_back({T::surface_merging, T::points_3d});
     sets.push_back({T::surface_merging, T::points_2d});
     sets.push_back({T::surface_merging, T::short_beams});
-    sets.push_back({T::surface_merging, T::long_beams});
-    sets.push_back({T::surface_merging, T::short_beams, T::planes});
-    sets.push_back({T::connections, T::light_tracing, T::planes});
   } else {
     sets.push_back({T::surface_merging});
   }
@@ -72,14 +69,11 @@ void append_combined(NamedSettings& all, const RenderSettings& base, bool media,
     sets.push_back({T::connections, T::light_tracing, T::points_3d});
     sets.push_back({T::connections, T::light_tracing, T::points_2d});
     sets.push_back({T::connections, T::light_tracing, T::short_beams});
-    sets.push_back({T::connections, T::light_tracing, T::long_beams});
     sets.push_back({T::light_tracing, T::surface_merging, T::points_3d});
     sets.push_back({T::surface_merging, T::points_3d, T::points_2d, T::short_beams});
-    sets.push_back({T::surface_merging, T::points_3d, T::points_2d, T::long_beams, T::planes});
   }
   std::vector<T> every;
-  for (const TechniqueInfo& info : kTechniques)
-    if (info.technique != T::long_beams) every.push_back(info.technique);
+  for (const TechniqueInfo& info : kTechniques) every.push_back(info.technique);
   sets.push_back(every);
   RenderSettings settings = base;
   settings.integrator = Integrator::combined;

@@ -27,12 +27,6 @@ double spread(const WholePath& path, size_t at, size_t i) {
 
 bool is_free(const WholePath& path, size_t i) { return path.junctions[i].kind == Junction::Kind::free; }
 
-/// That the directions of the two legs before a vertex and of the one behind it span.
-double volume_at(const WholePath& path, size_t i) {
-  return std::abs(glm::determinant(
-      glm::dmat3(Vec3d(path.direction(i - 2)), Vec3d(path.direction(i - 1)), Vec3d(path.direction(i)))));
-}
-
 }  // namespace
 
 WholePath random_path(Rng& rng, int events) {
@@ -137,7 +131,7 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
     const double merged = product(i + 1, i);
     const bool first = first_from_eye(path, i);
     if (!eye_reaches(i)) continue;
-    const bool along_rays = counts.points_2d + counts.short_beams + counts.long_beams > 0.0;
+    const bool along_rays = counts.points_2d + counts.short_beams > 0.0;
     const bool in_balls = counts.deep || !along_rays;
     const bool straight = i == 1 && counts.light;
     if (at.kind == Junction::Kind::surface && !straight) add(By::surface, i, counts.surfaces * merged);
@@ -149,12 +143,6 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
     if (!first) continue;
     add(By::points_2d, i, counts.points_2d * at.kept * merged / eye);
     add(By::short_beams, i, counts.short_beams * sine * merged / eye * mean_of(from_light) / light);
-    add(By::long_beams, i, counts.long_beams * sine * merged / eye / light);
-    if (i < 2 || path.junctions[i - 1].kind != Junction::Kind::medium) continue;
-    // A photon that comes as far as the turn, which the crossing tells, as it does the place of the crossing itself.
-    const Rgb& to_turn = path.transmittances[i - 2];
-    const double at_turn = mean_of(path.junctions[i - 1].sigma_t * to_turn);
-    add(By::planes, i, counts.planes * volume_at(path, i) * merged / eye / light * mean_of(to_turn) / at_turn);
   }
   return all;
 }

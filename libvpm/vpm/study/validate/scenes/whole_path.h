@@ -43,7 +43,7 @@ bool first_from_eye(const WholePath& path, size_t i);
 
 /// A technique at a junction, and its density.
 struct Found {
-  enum class By { run_into, sampled, connected, splat, surface, points_3d, points_2d, short_beams, long_beams, planes };
+  enum class By { run_into, sampled, connected, splat, surface, points_3d, points_2d, short_beams };
   By by;
   size_t at;
   double density;
