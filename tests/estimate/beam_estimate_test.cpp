@@ -166,7 +166,7 @@ TEST(SegmentMap, TakesAtMost28BytesAPhotonAndAnswersWithoutAny) {
 TEST(DensityIntegralsAlong, AreThoseOfTheMedium) {
   const Medium cloud = make_medium(
       make_grid(
-          centred_frame(12, 0.1),
+          centered_frame(12, 0.1),
           [](int x, int y, int z) { return std::max(0.0, std::sin(0.7 * x) + std::cos(0.5 * y) * std::sin(0.3 * z)); }),
       Rgb(1.0f));
   const Medium even{.name = "", .sigma_s = Rgb(0.0f), .sigma_t = Rgb(1.0f), .phase = Isotropic{}, .grid = nullptr};

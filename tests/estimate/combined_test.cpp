@@ -158,7 +158,7 @@ TEST(Combined, StatisticsTellRadiiAndThinPlaces) {
   RenderSettings settings = combined_settings_of(2'000);
   settings.radii = RadiusSchedule::constant;
   EXPECT_FLOAT_EQ(render_combined_pass(foggy_box(), settings, 0).statistics.last_volume_radius, 0.1f);
-  const auto grid = make_grid(centred_frame(16, 2.0 / 32.0), lattice_noise);
+  const auto grid = make_grid(centered_frame(16, 2.0 / 32.0), lattice_noise);
   Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f), 0.9f), PointLight{Vec3(0.5f, 1.5f, 0.5f), Rgb(9.0f)});
   scene.camera = make_camera(Vec3(0, 0.5f, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {6, 6});
   const auto below = [&](float floor) {

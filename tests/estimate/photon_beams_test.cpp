@@ -123,7 +123,7 @@ TEST(PhotonBeams, ChromaticBeamsCarryTheWeightsOfTheirMixture) {
 /// In a grid whose density rises evenly, 0.2 + 0.3 x + 2 z: what scatters is the density on the ray or on the beam, and
 /// light has come through the density between. A long beam's photon need not have come so far.
 TEST(PhotonBeams, AreAttenuatedByTheDensityOnTheirWay) {
-  const GridFrame frame = centred_frame(16, 0.25);
+  const GridFrame frame = centered_frame(16, 0.25);
   Crossed crossed(make_medium(make_grid(frame,
                                         [](int x, int y, int z) {
                                           const Vec3d at = 0.25 * Vec3d(x, y, z);
@@ -150,7 +150,7 @@ TEST(PhotonBeams, AreAttenuatedByTheDensityOnTheirWay) {
 TEST(PhotonBeams, LookUpsOfDensityAreCounted) {
   const PhotonBeam beam = slanted(0.6f);
   Crossed crossed(
-      make_medium(make_grid(centred_frame(16, 0.25), [](int x, int, int) { return 2.0 + 0.01 * x; }), Rgb(0.7f)));
+      make_medium(make_grid(centered_frame(16, 0.25), [](int x, int, int) { return 2.0 + 0.01 * x; }), Rgb(0.7f)));
   const auto lookups = [&](VolumeForm form, bool long_beams) {
     crossed.form = form;
     crossed.long_beams = long_beams;

@@ -125,7 +125,7 @@ TEST(PhotonPlanes, GoByTheDensitiesOfAGrid) {
   const auto density = [](const Vec3& p) { return 1.0f + 0.1f * p.x - 0.05f * p.y + 0.08f * p.z; };
   for (const Rgb& sigma_t : {Rgb(0.7f), Rgb(0.2f, 1.0f, 3.0f)}) {
     Medium medium = make_medium(
-        make_grid(centred_frame(16, 0.25), [&](int x, int y, int z) { return density(0.25f * Vec3(x, y, z)); }),
+        make_grid(centered_frame(16, 0.25), [&](int x, int y, int z) { return density(0.25f * Vec3(x, y, z)); }),
         sigma_t, 0.8f);
     medium.phase = HenyeyGreenstein{0.4f};
     const Scene scene = world_of(medium, Between::nothing);

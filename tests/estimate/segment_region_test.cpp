@@ -75,7 +75,7 @@ TEST(SegmentRegion, WithoutARuleItIsTheTubeBetweenTheEnds) {
 }
 
 /// The mean over a disc of that radius, by the kernel, of the length of chords of the unit sphere beside one at the
-/// distance `b` from its centre. They count as far as the reach of the region goes.
+/// distance `b` from its center. They count as far as the reach of the region goes.
 double mean_chord(double b, double reach, double radius) {
   const int rings = 200, turns = 200;
   double sum = 0.0, weights = 0.0;
@@ -132,7 +132,7 @@ TEST(SegmentRegion, AFloorBesideTheRayIsAPlane) {
 }
 
 /// The part of a cylinder about a ray that a ball takes away, weighted by the kernel; `closest` is the ray's distance
-/// from the ball's centre.
+/// from the ball's center.
 double taken_by_ball(double closest, double ball, double radius, double length) {
   const int rings = 200, turns = 200;
   double sum = 0.0, weights = 0.0;

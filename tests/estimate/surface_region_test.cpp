@@ -114,15 +114,15 @@ TEST(SurfaceRegion, CurvedSurfacesAreAllThere) {
   finish(scene);
   for (int i = 0; i < 20; ++i) {
     Rng rng(8, rng_stream(RngUse::test, 1), static_cast<uint64_t>(i));
-    const Vec3 outward = uniform_sphere(rng.uniform2()), centre(0.5f, 0.2f, -0.3f);
-    const Hit outside = hit_from(scene, centre + 2.0f * outward, -outward), inside = hit_from(scene, centre, outward);
+    const Vec3 outward = uniform_sphere(rng.uniform2()), center(0.5f, 0.2f, -0.3f);
+    const Hit outside = hit_from(scene, center + 2.0f * outward, -outward), inside = hit_from(scene, center, outward);
     EXPECT_EQ(share(scene, outside, outward, KernelKind::constant, 0.5f), 1.0);
     EXPECT_EQ(share(scene, inside, -outward, KernelKind::constant, 0.5f), 1.0);
     const GatherSettings gather{GatherMode::radius, 0.5f, 0, KernelKind::constant};
     const SurfaceRegion before(scene, outside, outward, gather), within(scene, inside, -outward, gather);
     for (int photon = 0; photon < 50; ++photon) {
       const Vec3 place =
-          hit_from(scene, centre, glm::normalize(outward + 0.25f * uniform_sphere(rng.uniform2()))).position;
+          hit_from(scene, center, glm::normalize(outward + 0.25f * uniform_sphere(rng.uniform2()))).position;
       EXPECT_TRUE(before.holds(place - outside.position)) << i << " " << photon;
       EXPECT_TRUE(within.holds(place - inside.position)) << i << " " << photon;
     }

@@ -28,7 +28,7 @@ Scene window(const Medium& medium) {
 
 /// A grid of that density, constant in all of [-2, 2]^3.
 std::shared_ptr<const DensityGrid> constant_grid(float density) {
-  const GridFrame frame = centred_frame(9, 0.25);
+  const GridFrame frame = centered_frame(9, 0.25);
   return make_grid(frame, [&](int, int, int) { return density; });
 }
 

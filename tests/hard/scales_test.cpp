@@ -10,9 +10,9 @@ namespace {
 
 enum class Lamp { spot, panel, sun };
 
-/// Anisotropic, heterogeneous smoke over a floor beside a glass ball, in units of `unit` m about `centre`.
-Scene small_world(float unit, const Vec3& centre, Lamp lamp) {
-  const auto at = [&](float x, float y, float z) { return centre + unit * Vec3(x, y, z); };
+/// Anisotropic, heterogeneous smoke over a floor beside a glass ball, in units of `unit` m about `center`.
+Scene small_world(float unit, const Vec3& center, Lamp lamp) {
+  const auto at = [&](float x, float y, float z) { return center + unit * Vec3(x, y, z); };
   Scene scene;
   GridFrame frame;
   frame.lo = Vec3i(0);

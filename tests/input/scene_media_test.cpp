@@ -77,8 +77,8 @@ TEST(SceneFile, PutsABoxAroundAGrid) {
     EXPECT_EQ(scene.media[0].sigma_s, Rgb(3));
     const Box bounds = scene.geometry.bounds(), support = scene.media[0].grid->bounds();
     EXPECT_LT(glm::length(bounds.lo - support.lo) + glm::length(bounds.hi - support.hi), 1e-4f);
-    EXPECT_EQ(normal_below(scene, 0.0f, bounds.centre().z), Vec3(0, 1, 0));
-    EXPECT_EQ(medium_at(scene, bounds.centre()), 0);
+    EXPECT_EQ(normal_below(scene, 0.0f, bounds.center().z), Vec3(0, 1, 0));
+    EXPECT_EQ(medium_at(scene, bounds.center()), 0);
     EXPECT_EQ(medium_at(scene, bounds.hi + 1.0f), kVacuum);
   }
 }

@@ -17,18 +17,18 @@ RC_GTEST_PROP(TransformProperty, MeshesKeepTheirNormalsOutward, ()) {
   }
   TriangleMesh mesh = box_mesh(Vec3d(-1.0), Vec3d(1.0));
   transform_mesh(m, mesh);
-  const Vec3d centre(m[3]);
-  double volume = 0.0;  // of the tetrahedra from the centre to the faces: all positive where normals are outward
+  const Vec3d center(m[3]);
+  double volume = 0.0;  // of the tetrahedra from the center to the faces: all positive where normals are outward
   for (const glm::uvec3& v : mesh.triangles) {
-    const Vec3d a = Vec3d(mesh.positions[v.x]) - centre, b = Vec3d(mesh.positions[v.y]) - centre,
-                c = Vec3d(mesh.positions[v.z]) - centre;
+    const Vec3d a = Vec3d(mesh.positions[v.x]) - center, b = Vec3d(mesh.positions[v.y]) - center,
+                c = Vec3d(mesh.positions[v.z]) - center;
     volume += glm::dot(a, glm::cross(b, c)) / 6.0;
   }
   const double exact = 8.0 * std::abs(glm::determinant(Mat3d(m)));
   double reach = 0.0;
-  for (const Vec3& p : mesh.positions) reach = std::max(reach, glm::length(Vec3d(p) - centre));
+  for (const Vec3& p : mesh.positions) reach = std::max(reach, glm::length(Vec3d(p) - center));
   // Corners are rounded to floats: each face moves by a rounding of its coordinates.
-  const double rounding = 2e-6 * (glm::length(centre) + reach) * reach * reach;
+  const double rounding = 2e-6 * (glm::length(center) + reach) * reach * reach;
   RC_ASSERT(std::abs(volume - exact) < rounding);
   RC_CLASSIFY(exact > 10.0 * rounding, "normals certain");
 }

@@ -141,7 +141,7 @@ TEST(Automatic, MediaAreAsThickAsTheThinnestIsAcross) {
 /// A grid of 2 m in a box of 8 m.
 TEST(Automatic, MediaEndWithTheirGrids) {
   Scene scene;
-  scene.media.push_back(make_medium(make_grid(centred_frame(16, 1.0 / 16.0), lattice_noise), Rgb(2.0f), 0.9f));
+  scene.media.push_back(make_medium(make_grid(centered_frame(16, 1.0 / 16.0), lattice_noise), Rgb(2.0f), 0.9f));
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-4.0), Vec3d(4.0)), Boundary{}, &media);
   scene.lights.push_back(PointLight{Vec3(0.0f, 3.0f, 0.0f), Rgb(10.0f)});

@@ -10,7 +10,7 @@ namespace vpm {
 inline Scene cloud_over_floor(bool grid) {
   Scene scene;
   std::shared_ptr<const DensityGrid> noise;
-  if (grid) noise = make_grid(centred_frame(16, 2.0 / 32.0), lattice_noise);
+  if (grid) noise = make_grid(centered_frame(16, 2.0 / 32.0), lattice_noise);
   scene.media.push_back(make_medium(noise, Rgb(2.0f), 0.9f));
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-0.9), Vec3d(0.9)), Boundary{}, &media);

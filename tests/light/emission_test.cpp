@@ -91,7 +91,7 @@ TEST(Emission, NeverMeetsItsOwnEmitter) {
     mesh.commit();
     Geometry disc;
     const DiscLight disc_light{corner, glm::normalize(glm::cross(u, v)), size, Rgb(1)};
-    disc.add(DiscShape{disc_light.centre, disc_light.normal, disc_light.radius});
+    disc.add(DiscShape{disc_light.center, disc_light.normal, disc_light.radius});
     disc.commit();
     Geometry sphere;
     sphere.add(SphereShape{corner, size});

@@ -93,7 +93,7 @@ TEST(Incident, SphereIsMetAtItsNearSide) {
     const auto in = sample_towards(sphere, {0, 0, 0}, rng);
     ASSERT_TRUE(in);
     const Vec3 p = in->distance * in->direction;
-    ASSERT_NEAR(glm::length(p - sphere.centre), 2.0f, 2e-5f);
+    ASSERT_NEAR(glm::length(p - sphere.center), 2.0f, 2e-5f);
     ASSERT_LE(in->distance, std::sqrt(169.0f - 4.0f) + 1e-4f);
     ASSERT_FLOAT_EQ(in->pdf * in->irradiance.r, 1.0f);
   }

@@ -13,9 +13,9 @@ namespace {
 
 TEST(LightOfSurface, KeepsPlaceAndNormal) {
   const auto sphere = std::get<SphereLight>(light_of(SphereShape{{1, 2, 3}, 0.5f}, Rgb(7)));
-  EXPECT_TRUE(sphere.centre == Vec3(1, 2, 3) && sphere.radius == 0.5f && sphere.radiance == Rgb(7));
+  EXPECT_TRUE(sphere.center == Vec3(1, 2, 3) && sphere.radius == 0.5f && sphere.radiance == Rgb(7));
   const auto disc = std::get<DiscLight>(light_of(DiscShape{{1, 2, 3}, {0, 0, 1}, 0.5f}, Rgb(7)));
-  EXPECT_TRUE(disc.centre == Vec3(1, 2, 3) && disc.normal == Vec3(0, 0, 1) && disc.radius == 0.5f);
+  EXPECT_TRUE(disc.center == Vec3(1, 2, 3) && disc.normal == Vec3(0, 0, 1) && disc.radius == 0.5f);
   const auto mesh = std::get<MeshLight>(light_of(box_mesh(Vec3d(0), Vec3d(1)), Rgb(7)));
   EXPECT_DOUBLE_EQ(mesh.mesh->area(), 6.0);
 }

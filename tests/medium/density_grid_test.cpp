@@ -268,8 +268,8 @@ TEST(DensityGrid, KnowsWhereItIsPositive) {
       const auto is_hole = [](int x, int y, int z) { return x == 2 && y == 9 && z == 4; };
       const auto grid = make_grid(frame, [&](int x, int y, int z) { return is_hole(x, y, z) ? 0.0 : 1.0; });
       const auto box_at = [&](const Vec3d& index, float half) {
-        const Vec3 centre(frame.index_to_world * glm::dvec4(index, 1.0));
-        return Box{centre - half, centre + half};
+        const Vec3 center(frame.index_to_world * glm::dvec4(index, 1.0));
+        return Box{center - half, center + half};
       };
       int yes = 0;
       for (uint64_t i = 0; i < 3000; ++i) {

@@ -18,7 +18,7 @@ constexpr int kHalfWidth = 20;
 
 /// Voxels of noise, some of them 0, in one box or in two that lie far apart.
 std::shared_ptr<const DensityGrid> grid_of(Interpolation interpolation, float background, bool two_boxes) {
-  GridFrame frame = centred_frame(kHalfWidth, 0.1, interpolation);
+  GridFrame frame = centered_frame(kHalfWidth, 0.1, interpolation);
   frame.background = background;
   std::vector<IndexBox> clouds{{frame.lo, frame.hi}};
   if (two_boxes) {

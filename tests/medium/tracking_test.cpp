@@ -139,7 +139,7 @@ TEST(Tracking, BoundsOfBlocksSaveLookUpsAndChangeNoFlight) {
 }
 
 TEST(Tracking, ProgressiveMajorantsCutTheDensityUntilTheyHaveGrown) {
-  const GridFrame frame = centred_frame(7, 0.125, Interpolation::nearest);
+  const GridFrame frame = centered_frame(7, 0.125, Interpolation::nearest);
   const auto checker = [&](double most) {
     return make_grid(frame, [=](int x, int y, int z) { return std::min((x + y + z) & 1 ? 1.5 : 0.3, most); });
   };
@@ -176,7 +176,7 @@ TEST(Tracking, WeightedFlightsUnderMajorantsThatBoundAreThoseOfDeltaTracking) {
 TEST(Tracking, BeyondMajorantsWeightsAreOfEitherSign) {
   // Dense voxels have four times the majorant: each look-up there multiplies by 4 + |1 - 4| or, where it is null, by
   // minus that. In the others the majorant bounds.
-  const GridFrame frame = centred_frame(7, 0.125, Interpolation::nearest);
+  const GridFrame frame = centered_frame(7, 0.125, Interpolation::nearest);
   const Medium medium =
       make_medium(make_grid(frame, [](int x, int y, int z) { return (x + y + z) & 1 ? 1.5 : 0.3; }), Rgb(2.0f));
   const auto weighted = make_distance_strategy({"weighted", {{"majorant", 0.25f}}});

@@ -11,7 +11,7 @@ namespace {
 const Ray kRay{Vec3(-3.0f, 0.4f, 0.2f), glm::normalize(Vec3(1.0f, -0.1f, 0.05f))};
 
 std::shared_ptr<const DensityGrid> blob() {
-  const GridFrame frame = centred_frame(20, 0.05);
+  const GridFrame frame = centered_frame(20, 0.05);
   return make_grid(frame, [](int x, int y, int z) { return std::exp(-0.01 * (x * x + y * y + z * z)); });
 }
 
@@ -56,7 +56,7 @@ struct Field {
   Interval stretch;
 };
 std::vector<Field> fields() {
-  const GridFrame voxels = centred_frame(20, 0.05, Interpolation::nearest);
+  const GridFrame voxels = centered_frame(20, 0.05, Interpolation::nearest);
   return {{"blob", blob(), {0.0f, 6.0f}},
           {"voxels", make_grid(voxels, [](int x, int y, int z) { return lattice_noise(x, y, z); }), {0.0f, 6.0f}},
           {"sheets", make_grid(voxels, [](int x, int, int) { return x == -9 || x == 14 ? 3.0 : 0.0; }), {0.0f, 6.0f}}};
@@ -108,7 +108,7 @@ TEST(Transmittance, TrackingHasTheVarianceOfItsPoissonProcess) {
 
 /// Density 0.8 + 0.6 x along x, x from -1 to 1 m, and a ray along it.
 Medium ramp(const Rgb& sigma_t) {
-  const GridFrame frame = centred_frame(10, 0.1);
+  const GridFrame frame = centered_frame(10, 0.1);
   return make_medium(make_grid(frame, [](int x, int, int) { return 0.8 + 0.06 * x; }), sigma_t);
 }
 const Ray kAlongRamp{Vec3(-0.9f, 0.2f, 0.1f), Vec3(1, 0, 0)};

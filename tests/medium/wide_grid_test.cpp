@@ -20,7 +20,7 @@ IndexBox cloud(const Vec3i& at) { return {at, at + kSize - 1}; }
 
 /// The frame of these clouds; voxels are a micrometre wide, so that they lie 1 km apart.
 GridFrame frame_of(const std::vector<IndexBox>& clouds, Interpolation interpolation, float background) {
-  GridFrame frame = centred_frame(0, 1e-6, interpolation);
+  GridFrame frame = centered_frame(0, 1e-6, interpolation);
   frame.lo = clouds.front().lo;
   frame.hi = clouds.front().hi;
   for (const IndexBox& box : clouds) {
@@ -168,7 +168,7 @@ TEST_P(WideGrid, KnowsItsMeanAndWhereItIsPositive) {
 
 TEST(WideGrids, ThatHoldTooMuchAreRefused) {
   const IndexBox all{Vec3i(0), Vec3i(100'000)};
-  GridFrame frame = centred_frame(0, 1.0);
+  GridFrame frame = centered_frame(0, 1.0);
   frame.hi = all.hi;
   bool asked = false;
   const auto fill = [&](const Vec3i&, float*) {

@@ -42,7 +42,7 @@ TEST(DirectLight, TransmittancesBelowZeroAndAboveOneAreKept) {
 TEST(SlowDirectLight, ThePathTracerKeepsNegativeSamples) {
   // A light behind a slab that is denser than a march can see: many samples are negative, none is dropped, and their
   // mean is that of the exact estimator.
-  const GridFrame frame = centred_frame(10, 0.1, Interpolation::nearest);
+  const GridFrame frame = centered_frame(10, 0.1, Interpolation::nearest);
   const auto sheets = make_grid(frame, [](int x, int, int) { return x == -3 || x == 4 ? 5.0 : 0.0; });
   Scene scene;
   scene.media.push_back(make_medium(sheets, Rgb(4.0f), 0.0f));

@@ -39,14 +39,14 @@ TEST(DirectionGuide, TellsNeighboursAndNobodyElse) {
 
 /// Each track counts by its weight and its length, and the sum of two guides is that of all tracks.
 TEST(DirectionGuide, WeighsTracksByWhatFlowsThere) {
-  const Vec3 centre(0.0f), x(1.0f, 0.0f, 0.0f), z(0.0f, 0.0f, 1.0f);
+  const Vec3 center(0.0f), x(1.0f, 0.0f, 0.0f), z(0.0f, 0.0f, 1.0f);
   DirectionGuide guide(kBox, 1), other(kBox, 1);
-  guide.add_track({centre, x}, 0.2f, 3.0f);
-  other.add_track({centre, z}, 0.5f, 0.4f);
+  guide.add_track({center, x}, 0.2f, 3.0f);
+  other.add_track({center, z}, 0.5f, 0.4f);
   guide.merge(other);
   guide.finish();
-  EXPECT_FLOAT_EQ(guide.at(centre).pdf(-x), 0.75f * kOneCell);
-  EXPECT_FLOAT_EQ(guide.at(centre).pdf(-z), 0.25f * kOneCell);
+  EXPECT_FLOAT_EQ(guide.at(center).pdf(-x), 0.75f * kOneCell);
+  EXPECT_FLOAT_EQ(guide.at(center).pdf(-z), 0.25f * kOneCell);
 }
 
 /// In bins that are quarters of cells.

@@ -15,16 +15,16 @@ namespace {
 const Box kImportanceBox{Vec3(-1.0f, -2.0f, 0.0f),
                          Vec3(3.0f, 0.0f, 1.0f)};  // 4 x 2 x 1 m: cubes of 1/2 m are 8 x 4 x 2
 
-Vec3 centre(int x, int y, int z) { return kImportanceBox.lo + 0.5f * (Vec3(x, y, z) + 0.5f); }
+Vec3 center(int x, int y, int z) { return kImportanceBox.lo + 0.5f * (Vec3(x, y, z) + 0.5f); }
 
 TEST(ImportanceMap, TracksLeaveTheirLengthInEachCube) {
   ImportanceMap map(kImportanceBox, 8);
-  map.add_track({centre(1, 2, 0), Vec3(1.0f, 0.0f, 0.0f)}, 1.0f, 3.0f);
-  EXPECT_FLOAT_EQ(map.at(centre(1, 2, 0)), 3.0f * 0.5f);  // a quarter of a metre of half a metre
-  EXPECT_FLOAT_EQ(map.at(centre(2, 2, 0)), 3.0f);
-  EXPECT_FLOAT_EQ(map.at(centre(3, 2, 0)), 3.0f * 0.5f);
-  EXPECT_EQ(map.at(centre(4, 2, 0)), 0.0f);
-  EXPECT_EQ(map.at(centre(2, 1, 0)), 0.0f);
+  map.add_track({center(1, 2, 0), Vec3(1.0f, 0.0f, 0.0f)}, 1.0f, 3.0f);
+  EXPECT_FLOAT_EQ(map.at(center(1, 2, 0)), 3.0f * 0.5f);  // a quarter of a metre of half a metre
+  EXPECT_FLOAT_EQ(map.at(center(2, 2, 0)), 3.0f);
+  EXPECT_FLOAT_EQ(map.at(center(3, 2, 0)), 3.0f * 0.5f);
+  EXPECT_EQ(map.at(center(4, 2, 0)), 0.0f);
+  EXPECT_EQ(map.at(center(2, 1, 0)), 0.0f);
 }
 
 TEST(ImportanceMap, SlantedTracksLeaveAllTheirLengthInside) {
@@ -34,33 +34,33 @@ TEST(ImportanceMap, SlantedTracksLeaveAllTheirLengthInside) {
   double sum = 0.0;
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 4; ++y)
-      for (int z = 0; z < 2; ++z) sum += map.at(centre(x, y, z)) * 0.5;
+      for (int z = 0; z < 2; ++z) sum += map.at(center(x, y, z)) * 0.5;
   const float share = 2.5f / 3.5f - 2.0f / 7.0f;  // between y = 0 and x = -1
   EXPECT_NEAR(sum, share * glm::distance(from, to), 1e-5);
 }
 
 TEST(ImportanceMap, TellsWhereImportanceRises) {
   ImportanceMap map(kImportanceBox, 8);
-  map.add_track({centre(5, 1, 1), Vec3(0.0f, 1.0f, 0.0f)}, 0.1f, 10.0f);  // 2 in that cube alone
-  const Ray along{centre(1, 1, 1), Vec3(1.0f, 0.0f, 0.0f)};
+  map.add_track({center(5, 1, 1), Vec3(0.0f, 1.0f, 0.0f)}, 0.1f, 10.0f);  // 2 in that cube alone
+  const Ray along{center(1, 1, 1), Vec3(1.0f, 0.0f, 0.0f)};
   const float rise = map.first_above(along, 1.0f);
   EXPECT_NEAR(rise, 1.75f, 1e-3f);
   EXPECT_GT(map.at(along.at(rise)), 1.0f);
   EXPECT_EQ(map.first_above(along, 3.0f), kInfinity);
-  EXPECT_EQ(map.first_above({centre(5, 1, 1), Vec3(1.0f, 0.0f, 0.0f)}, 1.0f), kInfinity);  // from there it falls
-  EXPECT_EQ(map.first_above({centre(1, 2, 1), Vec3(1.0f, 0.0f, 0.0f)}, 1.0f), kInfinity);  // passes by
+  EXPECT_EQ(map.first_above({center(5, 1, 1), Vec3(1.0f, 0.0f, 0.0f)}, 1.0f), kInfinity);  // from there it falls
+  EXPECT_EQ(map.first_above({center(1, 2, 1), Vec3(1.0f, 0.0f, 0.0f)}, 1.0f), kInfinity);  // passes by
 }
 
 TEST(ImportanceMap, IsPositiveEverywhereOnceFinished) {
   ImportanceMap map(kImportanceBox, 8);
-  map.add_track({centre(5, 1, 1), Vec3(0.0f, 1.0f, 0.0f)}, 0.1f, 10.0f);
+  map.add_track({center(5, 1, 1), Vec3(0.0f, 1.0f, 0.0f)}, 0.1f, 10.0f);
   map.finish();
-  EXPECT_GT(map.at(centre(0, 0, 0)), 0.0f);
-  EXPECT_GT(map.at(centre(5, 1, 1)), map.at(centre(6, 1, 1)));
-  EXPECT_GT(map.at(centre(6, 1, 1)), 100.0f * map.at(centre(0, 0, 0)));
+  EXPECT_GT(map.at(center(0, 0, 0)), 0.0f);
+  EXPECT_GT(map.at(center(5, 1, 1)), map.at(center(6, 1, 1)));
+  EXPECT_GT(map.at(center(6, 1, 1)), 100.0f * map.at(center(0, 0, 0)));
   ImportanceMap dark(kImportanceBox, 8);
   dark.finish();
-  EXPECT_GT(dark.at(centre(0, 0, 0)), 0.0f);
+  EXPECT_GT(dark.at(center(0, 0, 0)), 0.0f);
 }
 
 /// In a purely absorbing fog importons fly straight on: what the camera sees at a distance is worth exp(-distance) as

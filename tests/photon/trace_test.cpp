@@ -28,7 +28,7 @@ PhotonLists trace(const Scene& scene, const std::string& strategy, ListSettings 
 
 std::shared_ptr<const DensityGrid> grid_over_box(double (*density)(int, int, int)) {
   // Voxels of 1/8 m over [-1.5, 1.5]^3: the fading at the grid's edge stays outside the box.
-  const GridFrame frame = centred_frame(12, 0.125);
+  const GridFrame frame = centered_frame(12, 0.125);
   return make_grid(frame, density);
 }
 

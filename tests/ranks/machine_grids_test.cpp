@@ -22,7 +22,7 @@ namespace {
 Scene scene_of_two_clouds() {
   const auto cloud = [](const std::string& name, float density) {
     Medium medium =
-        make_medium(make_grid(centred_frame(9, 0.1),
+        make_medium(make_grid(centered_frame(9, 0.1),
                               [=](int x, int, int z) { return density * static_cast<float>(x * x + z * z); }),
                     Rgb(1.0f));
     medium.name = name;

@@ -224,7 +224,7 @@ TEST(EyeRays, TechniquesCombinedGoThroughSeveralMedia) {
   Scene two_balls = balls(fog(Rgb(0.7f), Isotropic{}));
   expect_combined_alike(two_balls, settings, Vec3(-3.0f, 0.1f, 0.2f), Vec3(0.0f));
   const Medium grid =
-      make_medium(make_grid(centred_frame(16, 0.1), [](int x, int, int) { return 1.0 + 0.05 * x; }), Rgb(0.7f), 0.8f);
+      make_medium(make_grid(centered_frame(16, 0.1), [](int x, int, int) { return 1.0 + 0.05 * x; }), Rgb(0.7f), 0.8f);
   Scene cloudy = room(grid);
   expect_combined_alike(cloudy, settings, Vec3(0.2f, 0.1f, 1.7f), Vec3(-2.0f, 0.3f, -2.0f), false);
 }

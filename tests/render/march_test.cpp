@@ -12,7 +12,7 @@ namespace {
 const Ray kRay{Vec3(-2.0f, 0.1f, -0.2f), glm::normalize(Vec3(1.0f, 0.05f, 0.1f))};
 
 Medium noise_medium(const Rgb& sigma_t) {
-  const GridFrame frame = centred_frame(10, 0.1);
+  const GridFrame frame = centered_frame(10, 0.1);
   return make_medium(
       make_grid(frame, [](int x, int y, int z) { return x % 5 == 0 ? 0.0 : 2.0 * lattice_noise(x, y, z); }), sigma_t);
 }

@@ -63,7 +63,7 @@ Scene lit_floor(const Lamp& lamp, const Surface& surface) {
 }
 const Ray kAtFloor{Vec3(0.0f, 0.2f, 2.0f), glm::normalize(Vec3(0.0f, -0.2f, -2.0f))};  // meets it at the origin
 
-/// The irradiance, over pi, under the centre of a parallel square of radiance 1, half edge h over its height.
+/// The irradiance, over pi, under the center of a parallel square of radiance 1, half edge h over its height.
 double square_irradiance(double h) {
   const double s = h / std::sqrt(1.0 + h * h);
   return 4.0 / M_PI * s * std::atan(s);
@@ -73,7 +73,7 @@ double square_irradiance(double h) {
 TEST(PathTracer, DiscsOfAllSizes) {
   for (const float radius : {0.02f, 1.5f}) {
     const DiscLight lamp{Vec3(0, 1, 0), Vec3(0, -1, 0), radius, Rgb(1.0f)};
-    const Moments seen = samples(lit_floor(lamp, DiscShape{lamp.centre, lamp.normal, radius}), kAtFloor, 40000);
+    const Moments seen = samples(lit_floor(lamp, DiscShape{lamp.center, lamp.normal, radius}), kAtFloor, 40000);
     expect_mean(seen, 0.6 * radius * radius / (1.0 + radius * radius), kFalseAlarms, "disc");
     EXPECT_LT(seen.variance(), 2.0 * seen.mean() * seen.mean()) << "both ways share";
   }
@@ -111,7 +111,7 @@ TEST(PathTracer, TheTwoWaysShare) {
   const Interface media{0, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.0), Vec3d(1.0)), Boundary{}, &media);
   scene.lights.push_back(lamp);
-  add_shape(scene, SphereShape{lamp.centre, lamp.radius}, Lambertian{Rgb(0.0f)}, nullptr, 0);
+  add_shape(scene, SphereShape{lamp.center, lamp.radius}, Lambertian{Rgb(0.0f)}, nullptr, 0);
   scene.geometry.commit();
   finish(scene);
   const Moments seen = samples(scene, {Vec3(0, 0.35f, 3), Vec3(0, 0, -1)}, 40000);

@@ -25,7 +25,7 @@ Scene fog_smoke_and_glass() {
   Scene scene;
   Medium fog = make_medium(nullptr, Rgb(0.5f, 1.0f, 2.0f), 0.9f);
   fog.phase = HenyeyGreenstein{0.5f};
-  const auto smoke = make_grid(centred_frame(8, 0.1), [](int x, int y, int z) { return lattice_noise(x, y, z); });
+  const auto smoke = make_grid(centered_frame(8, 0.1), [](int x, int y, int z) { return lattice_noise(x, y, z); });
   scene.media = {fog, make_medium(smoke, Rgb(4.0f), 0.8f)};
   const Interface box{0, kVacuum}, glass{kVacuum, 0}, ball{1, kVacuum};
   add_shape(scene, box_mesh(Vec3d(-1.2, -0.9, -0.8), Vec3d(0.2, 0.9, 0.8)), Boundary{}, &box);

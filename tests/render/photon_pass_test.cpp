@@ -182,7 +182,7 @@ TEST(PhotonPass, AMediumStandsOnAFloor) {
 }
 
 TEST(PhotonPass, MajorantsGrowFromPassToPassAndViolationsAreCounted) {
-  const GridFrame frame = centred_frame(8, 0.125);
+  const GridFrame frame = centered_frame(8, 0.125);
   const auto grid = make_grid(frame, [](int x, int y, int z) { return lattice_noise(x, y, z); });
   Scene scene = boxed_medium(make_medium(grid, Rgb(2.0f)), PointLight{Vec3(0.2f, 1.8f, 0.1f), Rgb(1.0f)});
   scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {8, 8});

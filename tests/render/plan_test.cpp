@@ -35,7 +35,7 @@ TEST(Plan, RefusesToCountLightTwice) {
 }
 
 TEST(Plan, StoresPhotonsAlongFlightsThatAreDrawnByTheMedium) {
-  const auto grid = make_grid(centred_frame(4, 0.25), [](int x, int y, int z) { return lattice_noise(x, y, z); });
+  const auto grid = make_grid(centered_frame(4, 0.25), [](int x, int y, int z) { return lattice_noise(x, y, z); });
   const Scene cloud = boxed_medium(make_medium(grid, Rgb(1.0f)), PointLight{});
   const Scene fog = boxed_medium(make_medium(nullptr, Rgb(1.0f)), PointLight{});
   const auto along_flights = [](const Scene& scene, const RenderSettings& settings) {

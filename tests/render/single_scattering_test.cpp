@@ -56,7 +56,7 @@ MarchedLight marched(const Scene& scene, float optical_step) {
 
 /// Noise with empty layers, over [-1, 1]^3.
 std::shared_ptr<const DensityGrid> noise_grid() {
-  return make_grid(centred_frame(11, 0.2),
+  return make_grid(centered_frame(11, 0.2),
                    [](int x, int y, int z) { return x % 4 == 0 ? 0.0 : 2.0 * lattice_noise(x, y, z); });
 }
 
@@ -133,7 +133,7 @@ TEST(SingleScattering, AttenuatedDistancesHaveTheirDensity) {
 }
 
 TEST(SingleScattering, NothingScattersWithoutDensityOrThroughput) {
-  const Medium empty = make_medium(make_grid(centred_frame(5, 0.4), [](int, int, int) { return 0.0; }), Rgb(1.0f));
+  const Medium empty = make_medium(make_grid(centered_frame(5, 0.4), [](int, int, int) { return 0.0; }), Rgb(1.0f));
   const Scene fog = boxed_medium(make_medium(nullptr, Rgb(1.0f)), PointLight{}),
               void_ = boxed_medium(empty, PointLight{});
   Rng rng(1, 0, 0);

@@ -104,7 +104,7 @@ TEST(View, WeighsMediaByTheLightTheyTake) {
 
 TEST(View, OfAGridIsThatOfItsDensityIntegral) {
   const Medium smoke = make_medium(
-      make_grid(centred_frame(7, 0.125), [](int x, int y, int z) { return lattice_noise(x, y, z); }), Rgb(1, 2, 4));
+      make_grid(centered_frame(7, 0.125), [](int x, int y, int z) { return lattice_noise(x, y, z); }), Rgb(1, 2, 4));
   Scene scene = unfinished_box(smoke);
   add_quad_at(scene, -0.37f, Lambertian{});  // in the midst of the grid
   be_ready(scene);
@@ -159,7 +159,7 @@ TEST(View, SeesAlbedoThroughMirrorsAndGlass) {
   expect_near(albedo_by(Mirror{Rgb(0.0f)}), Rgbd(0.0), 0.0);
 }
 
-/// At the centre of a ball of glass every branch comes back along the same line: a geometric series, cut where the
+/// At the center of a ball of glass every branch comes back along the same line: a geometric series, cut where the
 /// weaker side is worth little.
 TEST(View, SeesAlbedoThroughABallOfGlass) {
   Scene scene;

@@ -33,7 +33,7 @@ Medium fog(const std::string& name, const Rgb& sigma_t = Rgb(1)) {
 
 /// Smoke in a cube of side 2 m about the origin.
 Medium smoke(float background = 0.0f) {
-  GridFrame frame = centred_frame(4, 0.25);
+  GridFrame frame = centered_frame(4, 0.25);
   frame.background = background;
   Medium medium = make_medium(make_grid(frame, [](int, int, int) { return 1.0; }), Rgb(1));
   medium.name = "smoke";
@@ -41,9 +41,9 @@ Medium smoke(float background = 0.0f) {
 }
 
 /// A sphere of a boundary with media on its sides.
-ShapePart bubble(const Vec3& centre, float radius, const Interface& media) {
+ShapePart bubble(const Vec3& center, float radius, const Interface& media) {
   ShapePart shape;
-  shape.surface = SphereShape{centre, radius};
+  shape.surface = SphereShape{center, radius};
   shape.material = 2;
   shape.media = media;
   return shape;
@@ -117,7 +117,7 @@ TEST(Assemble, TheBoxOfAWideGridHasAMargin) {
   for (const int apart : {1000, 1'000'000, 10'000'000}) {
     SceneParts parts = ball_on_floor();
     parts.shapes.clear();
-    GridFrame frame = centred_frame(0, 1.0 / 24.0);  // its faces have no coordinates in single precision
+    GridFrame frame = centered_frame(0, 1.0 / 24.0);  // its faces have no coordinates in single precision
     frame.lo = Vec3i(0);
     frame.hi = Vec3i(apart + 15, 15, 15);
     const auto fill = [](const Vec3i&, float* values) {

@@ -98,7 +98,7 @@ TEST(Finish, BoundsTheShapes) {
   Scene empty;
   empty.geometry.commit();
   finish(empty);
-  EXPECT_EQ(empty.bounds.centre(), Vec3(0));
+  EXPECT_EQ(empty.bounds.center(), Vec3(0));
   EXPECT_FLOAT_EQ(empty.bounds.diagonal(), 2.0f);
   EXPECT_TRUE(empty.grey);
 }

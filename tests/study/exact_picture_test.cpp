@@ -17,7 +17,7 @@
 namespace vpm {
 namespace {
 
-const Vec3 kCentre(0.5f, -1.0f, 2.0f);
+const Vec3 kCenter(0.5f, -1.0f, 2.0f);
 constexpr float kRadius = 1.5f;
 const Rgb kSky(0.5f, 1.0f, 2.0f);
 
@@ -34,9 +34,9 @@ Scene ball_of(const Medium& medium, const Material& material = Boundary{}) {
   Scene scene;
   scene.media.push_back(medium);
   const Interface media{0, kVacuum};
-  add_shape(scene, SphereShape{kCentre, kRadius}, material, &media);
+  add_shape(scene, SphereShape{kCenter, kRadius}, material, &media);
   scene.lights.push_back(ConstantEnvironment{kSky});
-  scene.camera = make_camera(kCentre + Vec3(1.0f, 2.0f, 5.0f), kCentre, Vec3(0, 1, 0), 40.0f, {24, 16});
+  scene.camera = make_camera(kCenter + Vec3(1.0f, 2.0f, 5.0f), kCenter, Vec3(0, 1, 0), 40.0f, {24, 16});
   return scene;
 }
 Scene finished(Scene scene) {
@@ -53,9 +53,9 @@ TEST(ExactPicture, WhiteFogCannotBeSeen) {
 
 /// How long the ray is in the ball, m.
 double chord(const Ray& ray) {
-  const Vec3d to_centre = Vec3d(kCentre) - Vec3d(ray.origin);
-  const double along = glm::dot(to_centre, Vec3d(ray.direction));
-  const double beside2 = glm::dot(to_centre, to_centre) - along * along;
+  const Vec3d to_center = Vec3d(kCenter) - Vec3d(ray.origin);
+  const double along = glm::dot(to_center, Vec3d(ray.direction));
+  const double beside2 = glm::dot(to_center, to_center) - along * along;
   return 2.0 * std::sqrt(std::max(0.0, static_cast<double>(kRadius) * kRadius - beside2));
 }
 
@@ -117,7 +117,7 @@ TEST(ExactPicture, RefusesWhatTheoryDoesNotKnow) {
   const Medium known = fog(Rgb(1.0f), Rgb(0.9f));
   Medium forward = known, grid = known;
   forward.phase = HenyeyGreenstein{0.5f};
-  grid.grid = make_grid(centred_frame(4, 1.0), [](int, int, int) { return 1.0f; });
+  grid.grid = make_grid(centered_frame(4, 1.0), [](int, int, int) { return 1.0f; });
   expect_refused(finished(ball_of(forward)), "isotropically");
   expect_refused(finished(ball_of(grid)), "grid");
   expect_refused(finished(ball_of(known, Lambertian{Rgb(0.5f)})), "boundary");
@@ -126,11 +126,11 @@ TEST(ExactPicture, RefusesWhatTheoryDoesNotKnow) {
   expect_refused(finished(std::move(empty)), "does not hold fog in vacuum");
   Scene two = ball_of(known), lamp = ball_of(known), inside = ball_of(known);
   const Interface media{0, kVacuum};
-  add_shape(two, SphereShape{kCentre + 5.0f, 1.0f}, Boundary{}, &media);
+  add_shape(two, SphereShape{kCenter + 5.0f, 1.0f}, Boundary{}, &media);
   expect_refused(finished(std::move(two)), "one shape");
-  lamp.lights.push_back(PointLight{kCentre + 9.0f, Rgb(1.0f)});
+  lamp.lights.push_back(PointLight{kCenter + 9.0f, Rgb(1.0f)});
   expect_refused(finished(std::move(lamp)), "its light is no");
-  inside.camera = make_camera(kCentre, kCentre + 1.0f, Vec3(0, 1, 0), 40.0f, {4, 4});
+  inside.camera = make_camera(kCenter, kCenter + 1.0f, Vec3(0, 1, 0), 40.0f, {4, 4});
   inside.camera_medium = 0;
   expect_refused(finished(std::move(inside)), "camera");
   Scene box;

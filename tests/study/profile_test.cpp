@@ -118,8 +118,8 @@ TEST(ExactProfile, QuantilesInvertTheDistribution) {
 
 // In a blob's tails its error function is nearly constant.
 TEST(ExactProfile, GaussianTailsKeepTheirDigits) {
-  for (const double centre : {1.0, -0.8}) {
-    const Profile profile{GaussianProfile{1e12, 0.1, centre}, 0.3};
+  for (const double center : {1.0, -0.8}) {
+    const Profile profile{GaussianProfile{1e12, 0.1, center}, 0.3};
     const Bounded sum = integrate([&](double t) { return extinction(profile, t); }, 0.0, profile.length);
     const Bounded tau = optical_thickness(profile, profile.length);
     EXPECT_NEAR(tau.value, sum.value, tau.error + sum.error);

@@ -32,10 +32,10 @@ struct FlightField {
 /// Grids over x in (-1, 1) along the ray, voxels of 1/8 m; of 1/32 m the fine one, whose bricks inside hold nothing but
 /// its values, at least 1/2.
 inline std::vector<FlightField> flight_fields() {
-  const GridFrame frame = centred_frame(7, 0.125);
+  const GridFrame frame = centered_frame(7, 0.125);
   GridFrame boxes = frame;
   boxes.interpolation = Interpolation::nearest;
-  const GridFrame fine = centred_frame(31, 0.03125);
+  const GridFrame fine = centered_frame(31, 0.03125);
   return {
       {"constant", make_grid(frame, [](int, int, int) { return 0.8; })},
       {"ramp", make_grid(frame, [](int x, int, int) { return 0.1 * (x + 8); })},

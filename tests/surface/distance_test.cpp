@@ -51,8 +51,8 @@ TEST(Geometry, FindsShapesNearAPointLikeBruteForce) {
   std::vector<SphereShape> spheres;
   std::vector<DiscShape> discs;
   for (int i = 0; i < 20; ++i) {
-    const Vec3 centre = in_cube(rng);
-    triangles.push_back({{centre, centre + 0.4f * in_cube(rng), centre + 0.4f * in_cube(rng)}, {{0, 1, 2}}});
+    const Vec3 center = in_cube(rng);
+    triangles.push_back({{center, center + 0.4f * in_cube(rng), center + 0.4f * in_cube(rng)}, {{0, 1, 2}}});
     spheres.push_back({in_cube(rng), 0.02f + 0.2f * rng.uniform()});
     discs.push_back({in_cube(rng), uniform_sphere(rng.uniform2()), 0.02f + 0.2f * rng.uniform()});
     geometry.add(triangles.back());

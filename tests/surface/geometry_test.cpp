@@ -34,7 +34,7 @@ void brute_sphere(const SphereShape& s, const Ray& ray, int shape, BruteHit& bes
   using Real = long double;
   Real a = 0, b = 0, c = -Real(s.radius) * s.radius;
   for (int i = 0; i < 3; ++i) {
-    const Real o = Real(ray.origin[i]) - s.centre[i], d = ray.direction[i];
+    const Real o = Real(ray.origin[i]) - s.center[i], d = ray.direction[i];
     a += d * d, b += o * d, c += o * o;
   }
   const Real discriminant = b * b - a * c;
@@ -54,9 +54,9 @@ TEST(Geometry, MeetsTheNearestShapeLikeBruteForce) {
   std::vector<SphereShape> spheres;
   Geometry geometry;
   for (int i = 0; i < 100; ++i) {
-    const Vec3 centre = in_cube(rng);
+    const Vec3 center = in_cube(rng);
     triangles.push_back(
-        triangle(centre + 0.3f * in_cube(rng), centre + 0.3f * in_cube(rng), centre + 0.3f * in_cube(rng)));
+        triangle(center + 0.3f * in_cube(rng), center + 0.3f * in_cube(rng), center + 0.3f * in_cube(rng)));
     EXPECT_EQ(geometry.add(triangles.back()), static_cast<uint32_t>(2 * i));
     spheres.push_back({in_cube(rng), 0.1f * rng.uniform() + 0.001f});
     EXPECT_EQ(geometry.add(spheres.back()), static_cast<uint32_t>(2 * i + 1));
@@ -131,11 +131,11 @@ TEST(Geometry, HitsOfFarAndTinyAndHugeSpheresLieOnThem) {
       Vec3 s, t;
       make_frame(direction, s, t);
       const Vec2 aim = 0.7f * radius * uniform_disc(rng.uniform2());
-      const Ray ray{sphere.centre + aim.x * s + aim.y * t - away * direction, direction};
+      const Ray ray{sphere.center + aim.x * s + aim.y * t - away * direction, direction};
       const auto hit = geometry.intersect(ray);
       ASSERT_TRUE(hit) << "radius " << radius << " away " << away;
-      const double from_centre = glm::length(Vec3d(hit->position) - Vec3d(sphere.centre));
-      EXPECT_NEAR(from_centre / radius, 1.0, 2e-7);
+      const double from_center = glm::length(Vec3d(hit->position) - Vec3d(sphere.center));
+      EXPECT_NEAR(from_center / radius, 1.0, 2e-7);
       // The ray passes through the hit: its distance to the line is that of rounded coordinates.
       const Vec3d to_hit = Vec3d(hit->position) - Vec3d(ray.origin), d = glm::normalize(Vec3d(direction));
       EXPECT_LT(glm::length(to_hit - glm::dot(to_hit, d) * d), 2e-7 * radius);
@@ -158,14 +158,14 @@ TEST(Geometry, MeetsDiscsWithinTheirRims) {
     for (int i = 0; i < 20; ++i) {
       const Vec2 aim = 1.5f * radius * uniform_disc(rng.uniform2());
       const Vec3 direction = grazing_direction(disc.normal, rng);
-      const Ray ray{disc.centre + aim.x * s + aim.y * t - radius * power_of_ten(rng, -2.0f, 2.0f) * direction,
+      const Ray ray{disc.center + aim.x * s + aim.y * t - radius * power_of_ten(rng, -2.0f, 2.0f) * direction,
                     direction};
       using Real = long double;
       Real ahead = 0, slope = 0, square = 0;
-      for (int a = 0; a < 3; ++a) ahead += (Real(disc.centre[a]) - ray.origin[a]) * disc.normal[a];
+      for (int a = 0; a < 3; ++a) ahead += (Real(disc.center[a]) - ray.origin[a]) * disc.normal[a];
       for (int a = 0; a < 3; ++a) slope += Real(ray.direction[a]) * disc.normal[a];
       for (int a = 0; a < 3; ++a) {
-        const Real p = Real(ray.origin[a]) - disc.centre[a] + ahead / slope * ray.direction[a];
+        const Real p = Real(ray.origin[a]) - disc.center[a] + ahead / slope * ray.direction[a];
         square += p * p;
       }
       const double share = static_cast<double>(std::sqrt(square) / radius), far = static_cast<double>(ahead / slope);
@@ -176,7 +176,7 @@ TEST(Geometry, MeetsDiscsWithinTheirRims) {
       if (!hit) continue;
       EXPECT_EQ(hit->normal, disc.normal);
       EXPECT_NEAR(hit->t, far, 1e-6 * far);
-      const Vec3d off = Vec3d(hit->position) - Vec3d(disc.centre);
+      const Vec3d off = Vec3d(hit->position) - Vec3d(disc.center);
       EXPECT_LT(std::abs(glm::dot(off, Vec3d(disc.normal))), 2e-6 * radius);
       EXPECT_LT(glm::length(off), 1.000003 * radius);
     }

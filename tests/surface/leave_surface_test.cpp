@@ -15,13 +15,13 @@ TEST(LeaveSurface, NeverMeetsTheSameTriangleAgain) {
   for (int k = 0; k < 2500; ++k) {
     const float away = power_of_ten(rng, -4.0f, 6.0f);
     const float size = std::max(power_of_ten(rng, -4.0f, 6.0f), 1e-5f * away);
-    const Vec3 centre = away * in_cube(rng);
-    Vec3 a = centre + size * in_cube(rng), b = centre + size * in_cube(rng), c = centre + size * in_cube(rng);
-    if (k % 3 == 1) a[k % 9 / 3] = b[k % 9 / 3] = c[k % 9 / 3] = centre[k % 9 / 3];
+    const Vec3 center = away * in_cube(rng);
+    Vec3 a = center + size * in_cube(rng), b = center + size * in_cube(rng), c = center + size * in_cube(rng);
+    if (k % 3 == 1) a[k % 9 / 3] = b[k % 9 / 3] = c[k % 9 / 3] = center[k % 9 / 3];
     if (k % 3 == 2) c = glm::mix(a, b, rng.uniform()) + 0.01f * (c - a);
     Geometry geometry;
     geometry.add(triangle(a, b, c));
-    if (k % 2 == 1) add_specks(geometry, centre, size);
+    if (k % 2 == 1) add_specks(geometry, center, size);
     geometry.commit();
     for (int i = 0; i < 100; ++i) {
       const Vec2 u = rng.uniform2();
@@ -51,12 +51,12 @@ TEST(LeaveSurface, LeavesASphereOutwardForGoodAndInwardToItsFarSide) {
     const SphereShape sphere{away * in_cube(rng), radius};
     Geometry geometry;
     geometry.add(sphere);
-    if (k % 2 == 1) add_specks(geometry, sphere.centre, radius);
+    if (k % 2 == 1) add_specks(geometry, sphere.center, radius);
     geometry.commit();
     for (int i = 0; i < 100; ++i) {
       const Vec3 direction = uniform_sphere(rng.uniform2());
       const float back = radius * power_of_ten(rng, -2.0f, 2.0f);
-      const auto hit = geometry.intersect({sphere.centre + 0.5f * radius * in_cube(rng) - back * direction, direction});
+      const auto hit = geometry.intersect({sphere.center + 0.5f * radius * in_cube(rng) - back * direction, direction});
       if (!hit) continue;
       for (int j = 0; j < 4; ++j) {
         const Vec3 out = grazing_direction(hit->normal, rng);
@@ -83,12 +83,12 @@ TEST(LeaveSurface, NeverMeetsTheSameDiscAgain) {
     const DiscShape disc{away * in_cube(rng), uniform_sphere(rng.uniform2()), radius};
     Geometry geometry;
     geometry.add(disc);
-    if (k % 2 == 1) add_specks(geometry, disc.centre, radius);
+    if (k % 2 == 1) add_specks(geometry, disc.center, radius);
     geometry.commit();
     for (int i = 0; i < 100; ++i) {
       const Vec3 direction = uniform_sphere(rng.uniform2());
       const float back = radius * power_of_ten(rng, -2.0f, 2.0f);
-      const auto hit = geometry.intersect({disc.centre + 0.5f * radius * in_cube(rng) - back * direction, direction});
+      const auto hit = geometry.intersect({disc.center + 0.5f * radius * in_cube(rng) - back * direction, direction});
       if (!hit) continue;
       for (int j = 0; j < 4; ++j) {
         const Vec3 out = grazing_direction(hit->normal, rng);
@@ -165,16 +165,16 @@ TEST(LeaveSurface, MovesByUnitsInTheLastPlaceOnly) {
 TEST(LeaveSurface, PassesCornersOfBoxesInAFewSteps) {
   Rng rng(11, rng_stream(RngUse::test, 53), 0);
   for (int k = 0; k < 40; ++k) {
-    const Vec3d half = 0.05 + 0.5 * (1.0 + Vec3d(in_cube(rng))), centre(in_cube(rng));
+    const Vec3d half = 0.05 + 0.5 * (1.0 + Vec3d(in_cube(rng))), center(in_cube(rng));
     Geometry geometry;
-    geometry.add(box_mesh(centre - half, centre + half), Layer::boundary);
-    if (k % 2 == 1) add_specks(geometry, Vec3(centre), 1.0f);
+    geometry.add(box_mesh(center - half, center + half), Layer::boundary);
+    if (k % 2 == 1) add_specks(geometry, Vec3(center), 1.0f);
     geometry.commit();
     for (int i = 0; i < 1000; ++i) {
       Vec3d aim(glm::sign(in_cube(rng)));
       if (i % 2 == 1) aim.z = 2.0 * rng.uniform_double() - 1.0;
-      const Vec3 origin(centre + 0.99 * half * Vec3d(in_cube(rng)));
-      Ray ray{origin, glm::normalize(Vec3(centre + half * aim) - origin)};
+      const Vec3 origin(center + 0.99 * half * Vec3d(in_cube(rng)));
+      Ray ray{origin, glm::normalize(Vec3(center + half * aim) - origin)};
       int steps = 0;
       while (const Encounter met = geometry.encounter(ray)) {
         ASSERT_LT(++steps, 20) << "box " << k << ", ray " << i;

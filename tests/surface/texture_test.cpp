@@ -17,13 +17,13 @@ TEST(Texture, ShowsTheBottomRowAtTheStartOfV) {
   const Texture nearest(picture(), TextureFilter::nearest), bilinear(picture(), TextureFilter::bilinear);
   for (int x = 0; x < 3; ++x)
     for (int y = 0; y < 2; ++y) {
-      const Vec2 centre((static_cast<float>(x) + 0.5f) / 3.0f, 1.0f - (static_cast<float>(y) + 0.5f) / 2.0f);
-      EXPECT_EQ(nearest.at(centre), picture().at(x, y));
-      EXPECT_NEAR(bilinear.at(centre).r, picture().at(x, y).r, 1e-6f);
+      const Vec2 center((static_cast<float>(x) + 0.5f) / 3.0f, 1.0f - (static_cast<float>(y) + 0.5f) / 2.0f);
+      EXPECT_EQ(nearest.at(center), picture().at(x, y));
+      EXPECT_NEAR(bilinear.at(center).r, picture().at(x, y).r, 1e-6f);
     }
 }
 
-TEST(Texture, IsLinearBetweenCentresAndRepeats) {
+TEST(Texture, IsLinearBetweenCentersAndRepeats) {
   const Texture texture(picture(), TextureFilter::bilinear);
   EXPECT_NEAR(texture.at({1.0f / 3.0f, 0.25f}).r, 0.35f, 1e-6f);  // between the first two of the bottom row
   EXPECT_NEAR(texture.at({0.5f, 0.5f}).r, 0.25f, 1e-6f);          // between the middle ones
@@ -53,7 +53,7 @@ TEST(Texture, HasTheMeanOfACheckerForEitherFilter) {
     for (int x = 0; x < 4; ++x) checker.at(x, y) = (x + y) % 2 ? Rgb(0.9f, 0.6f, 0.2f) : Rgb(0.1f, 0.2f, 0.2f);
   for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::nearest}) {
     const Texture texture(checker, filter);
-    // The midpoints of 8 cells for each texel: exact for what is linear between centres.
+    // The midpoints of 8 cells for each texel: exact for what is linear between centers.
     Rgbd sum(0.0);
     for (int i = 0; i < 32; ++i)
       for (int j = 0; j < 48; ++j)

@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kWidth = 32, kHeight = 24;
 
-/// A scene that shows something of width `size` at `centre` in black space, lit by a light from the upper right.
+/// A scene that shows something of width `size` at `center` in black space, lit by a light from the upper right.
 /// `medium` has the keys of its fog.
-std::string view_of(const Vec3d& centre, double size, const std::string& medium) {
-  const Vec3d camera = centre + Vec3d(0.0, 0.0, 1.6 * size), lamp = centre + size * Vec3d(0.8, 1.0, 0.8);
+std::string view_of(const Vec3d& center, double size, const std::string& medium) {
+  const Vec3d camera = center + Vec3d(0.0, 0.0, 1.6 * size), lamp = center + size * Vec3d(0.8, 1.0, 0.8);
   const auto text = [](const Vec3d& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); };
   return fmt::format(R"(
 [camera]
@@ -44,7 +44,7 @@ radius = {}
 type = "shadow-rays"
 [media.fog]
 {})",
-                     text(camera), text(centre), kWidth, kHeight, text(lamp), text(centre), size * size, 0.03 * size,
+                     text(camera), text(center), kWidth, kHeight, text(lamp), text(center), size * size, 0.03 * size,
                      medium);
 }
 

@@ -70,7 +70,7 @@ TemporaryFile::TemporaryFile(const fs::path& target)
     : target_(resolve(target)), path_(make_sibling(target_.parent_path(), target)) {}
 
 TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;  // a destructor has nobody to tell
+  std::error_code ignored;  // a destructor cannot report it
   if (!committed_) fs::remove(path_, ignored);
 }
 

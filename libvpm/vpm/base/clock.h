@@ -19,8 +19,8 @@ class Stopwatch {
   Steady::time_point start_ = Steady::now();
 };
 
-/// Tells how long a run has taken, and gives up what takes too long. Tests put one in its place that is told what work
-/// costs.
+/// Measures how long a run has taken, and gives up what takes too long. Tests put one in its place that is given what
+/// work costs.
 class Clock {
  public:
   virtual ~Clock() = default;

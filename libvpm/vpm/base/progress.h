@@ -16,14 +16,14 @@ enum class ProgressMode { automatic, always, never };
 bool progress_enabled(ProgressMode mode);
 
 /// "photons  [#########-----------]  47 %  12 s left": `done` of `total` units of work after `seconds` s. The time left
-/// assumes that the rest goes as fast as the part done; it is missing below `least` units, which do not tell how fast
+/// assumes that the rest goes as fast as the part done; it is missing below `least` units, too few to know how fast
 /// that is. A total of 0 is unknown: "photons  123456".
 std::string progress_line(const std::string& stage, uint64_t done, uint64_t total, double seconds, uint64_t least = 1);
 
 /// Shows the progress of one stage from construction to finish() or destruction. Work is counted in any unit.
 class Progress {
  public:
-  /// `total` is 0 where it is unknown. The time left is told from `least` > 0 units on.
+  /// `total` is 0 where it is unknown. The time left is shown from `least` > 0 units on.
   Progress(std::string stage, uint64_t total, bool enabled, uint64_t least = 1);
   ~Progress() { finish(); }
   Progress(const Progress&) = delete;

@@ -48,7 +48,7 @@ struct Box {
   Vec3 hi{-kInfinity};
 
   bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
-  Vec3 centre() const { return 0.5f * (lo + hi); }
+  Vec3 center() const { return 0.5f * (lo + hi); }
   Vec3 extent() const { return hi - lo; }
   float diagonal() const { return empty() ? 0.0f : glm::length(extent()); }
   bool contains(const Vec3& p) const {

@@ -16,7 +16,7 @@
 namespace vpm {
 
 /// A photon map that is gathered from within a region, for the estimates of this folder. A Region has two functions:
-/// share(radius) gives its RegionShare of a kernel of that radius (m); holds(offset) tells whether the place at that
+/// share(radius) gives its RegionShare of a kernel of that radius (m); holds(offset) says whether the place at that
 /// offset from the point lies in it.
 template <class Region>
 struct BoundedMap {

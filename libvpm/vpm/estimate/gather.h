@@ -35,7 +35,7 @@ class AskedRadius {
   float metres_ = 0.0f;
 };
 
-/// How photons are gathered. The type of the radius tells whether it is asked for or known.
+/// How photons are gathered. The type of the radius says whether it is asked for or known.
 template <class Radius>
 struct GatherRule {
   GatherMode mode = GatherMode::radius;

@@ -146,7 +146,7 @@ struct PowerAlone {
   Rgb operator()(const Vec3&, const Rgb& power) const { return power; }
 };
 
-/// Does it tell of whole nodes whether it takes the photons below (node_groups.h)?
+/// Does it accept or refuse whole nodes of photons (node_groups.h)?
 template <class Accept>
 concept JudgesNodes = requires(const Accept& accept, const NodeGroup& nodes, const Vec3& point, GroupView& view) {
   accept.judge(nodes, point, view);

@@ -1,4 +1,4 @@
-// How much of a kernel lies in a region, and how much outside, along a line from the kernel's centre.
+// How much of a kernel lies in a region, and how much outside, along a line from the kernel's center.
 #pragma once
 
 #include "vpm/photon/kernel.h"

@@ -1,4 +1,4 @@
-// Planes at borders, and lines beside the ray that tell how much of the tube around it is there.
+// Planes at borders, and lines beside the ray by which the part of the tube around it that is there is estimated.
 #include "vpm/estimate/segment_region.h"
 
 #include <array>
@@ -13,7 +13,7 @@ namespace {
 constexpr int kLines = 16;            // by which a share is found
 constexpr int kMostHits = 64;         // along one line; what is left of it then counts as being what it is there
 constexpr float kProbes = 0.8f;       // how far from the ray, in radii, lines look whether there is anything to correct
-constexpr float kLess = 0.85f;        // the part of a radius by which it is told how shares change with the radius
+constexpr float kLess = 0.85f;        // the part of a radius by which the change of shares with the radius is estimated
 constexpr float kCorrected = 0.125f;  // of the shares have a correction, as it costs as much as a share
 constexpr float kResolved = 1e-3f;    // of the radius: what borders are off by does not count
 
@@ -264,7 +264,7 @@ KernelEstimate SegmentRegion::share(float radius, const SeenAlong& seen, const R
 }
 
 /// The light that is seen of a line beside the ray. `aside` is its distance from the ray, and `ahead` how far places on
-/// it lie before the centres of their balls, m.
+/// it lie before the centers of their balls, m.
 Rgbd SegmentRegion::seen_of_line(const Vec3& aside, float ahead, float radius, const SeenAlong& seen) const {
   Rgbd sum(0.0);
   const Vec3 w = segment_.ray.direction;

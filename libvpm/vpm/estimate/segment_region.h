@@ -54,7 +54,7 @@ class SegmentRegion {
   /// The segment is in a medium. Under BoundaryRule::none the region is the whole tube between the segment's ends.
   SegmentRegion(const EyeSegment& segment, const GatherSettings& gather, Spread spread);
 
-  /// Where, along the ray, photons of the region project to or (`balls`) balls that reach into it have their centres,
+  /// Where, along the ray, photons of the region project to or (`balls`) balls that reach into it have their centers,
   /// m.
   const Interval& reach() const { return reach_; }
   /// The half spaces in which photons count, from the ray's origin.

@@ -1,4 +1,4 @@
-// Sums of passes, and what they tell of errors.
+// Sums of passes, and the errors estimated from them.
 #include "vpm/film/film.h"
 
 #include <fmt/format.h>

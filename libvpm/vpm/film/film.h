@@ -1,4 +1,4 @@
-// The film: the mean of passes, pixel by pixel, and what passes tell of its error. The result does not depend on the
+// The film: the mean of passes, pixel by pixel, and its estimated error. The result does not depend on the
 // order of the passes, nor on how films of some of them were merged.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Passes over the pixels: what one gives, where it tells how far it is, and which there are, by number.
+// Passes over the pixels: what one gives, where it reports progress, and sets of pass numbers.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Pass {
   }
 };
 
-/// Where a pass tells how far it is. Either may be missing.
+/// Where a pass reports progress. Either may be missing.
 struct PassProgress {
   bool stages = false;        // a bar for each stage of the pass
   Progress* tiles = nullptr;  // advanced by the pass's units of work in its course

@@ -10,7 +10,7 @@ namespace vpm {
 struct PassSettings {
   uint64_t seed = 1;
   int samples_per_pixel = 1;  // camera rays per pixel and pass, >= 1
-  ViewLayerSet layers;        // what pictures tell besides the light
+  ViewLayerSet layers;        // what pictures hold besides the light
 };
 
 }  // namespace vpm

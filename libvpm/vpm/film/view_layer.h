@@ -10,7 +10,7 @@
 
 namespace vpm {
 
-/// What a pixel tells of that which its rays come through and to.
+/// A property of what a pixel's rays come through and to.
 enum class ViewLayer : uint32_t { depth, normal, albedo, transmittance, single_scattering_albedo, samples };
 
 struct ViewLayerInfo {
@@ -26,7 +26,7 @@ inline constexpr std::array<ViewLayerInfo, 6> kViewLayers{
      {ViewLayer::single_scattering_albedo, "single-scattering-albedo"},
      {ViewLayer::samples, "samples"}}};
 
-/// A set of layers, none unless told otherwise.
+/// A set of layers, empty by default.
 class ViewLayerSet {
  public:
   constexpr bool has(ViewLayer layer) const { return (bits_ & bit(layer)) != 0; }

@@ -147,7 +147,7 @@ struct LayerKind {
   std::string_view letters;  // of its channels
   std::vector<SumOf> sums;   // a film each; none: the number of samples
   Finish finish = mean_itself;
-  bool is_mean() const { return finish == mean_itself && !sums.empty(); }  // passes tell its variance
+  bool is_mean() const { return finish == mean_itself && !sums.empty(); }  // its variance is estimated from passes
 };
 
 const LayerKind& kind_of_layer(ViewLayer layer) {

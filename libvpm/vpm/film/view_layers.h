@@ -1,5 +1,5 @@
 // What a ray from the camera comes through and to (media, the first surface, and what that scatters), and layers of a
-// picture of it: sums over the samples of a pass, and what films of these tell.
+// picture of it: sums over the samples of a pass, and layers made of films of these.
 #pragma once
 
 #include <optional>

@@ -28,7 +28,7 @@ struct ExrWindow {
 /// Writes the float channels R, G, B, A = 1 and those of the layers into one part, ZIP compressed (lossless), and each
 /// pair of `metadata` as a string attribute; the keys must be distinct and none of the format's own names. Equal
 /// arguments give equal bytes: no time stamp. The file appears whole or not at all; throws InputError where it cannot
-/// be written. Where the images are a part of a picture, `part` tells which: they are the file's data window, and the
+/// be written. Where the images are a part of a picture, `part` says which: they are the file's data window, and the
 /// whole is its display window.
 void write_exr(const std::filesystem::path& path, const Image& radiance, const std::vector<ExrLayer>& layers,
                const std::vector<std::pair<std::string, std::string>>& metadata,

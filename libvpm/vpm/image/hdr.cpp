@@ -141,7 +141,7 @@ class HdrReader {
     return pixel;
   }
 
-  /// The first pixel tells how a row is packed: (2, 2, its length) before four runs of bytes of a kind.
+  /// The first pixel says how a row is packed: (2, 2, its length) before four runs of bytes of a kind.
   void read_row(std::vector<Pixel>& row) {
     const Pixel first = next_pixel();
     const bool packed = first[0] == 2 && first[1] == 2 && first[2] < 128 && row.size() >= 8 && row.size() < 32768;

@@ -1,4 +1,5 @@
-// What tells one scene from another: the keys of its file with their values, and the bytes of the files that it names.
+// What distinguishes one scene from another: the keys of its file with their values, and the bytes of the files that it
+// names.
 #pragma once
 
 #include <string>

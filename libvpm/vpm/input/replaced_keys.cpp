@@ -1,4 +1,4 @@
-// Settings before and after an option are told apart by what the components describe.
+// Settings before and after an option are those that the components describe.
 #include "vpm/input/replaced_keys.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// From a scene file to a Scene: reads the sections, then the grids, has the parts put together, and tells at which
+// From a scene file to a Scene: reads the sections, then the grids, has the parts put together, and says at which
 // place in the file a part is refused.
 #include "vpm/input/scene_file.h"
 

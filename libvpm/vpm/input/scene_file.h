@@ -16,7 +16,7 @@ namespace vpm {
 /// (integrator.type=path) drops what the file and the options before it say of the one in its place and the new one
 /// does not have; the job's notes list that. Paths in the file are relative to its folder, paths in an option to the
 /// current one. `load` is called for each grid; empty: load_grid(). Throws InputError for anything that is not right,
-/// telling file:line:column, or the option.
+/// with file:line:column, or the option.
 RenderJob load_scene(const std::string& path, const std::vector<std::string>& overrides = {},
                      LeftOut left_out = LeftOut::usual, const GridLoader& load = {});
 

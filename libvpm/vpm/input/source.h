@@ -1,4 +1,4 @@
-// Where a piece of a scene file stands, and how an error about it is told.
+// Where a piece of a scene file stands, and how an error about it is written.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ std::string suggest(const std::string& name, std::span<const std::string> candid
 /// The candidate that `name` probably means (few edits away), or "".
 std::string nearest_name(const std::string& name, std::span<const std::string> candidates);
 
-/// The end of a file's name that tells its kind, in small letters: ".ply".
+/// The end of a file's name, by which its kind is known, in small letters: ".ply".
 std::string lower_extension(const std::string& path);
 
 /// Reads a whole file. Throws InputError where it cannot: no such file, a folder, no permission.

@@ -90,7 +90,7 @@ namespace {
 /// A whole number, also one that is written as 1e6 is.
 std::optional<int64_t> whole_number(const Node& node) {
   if (const auto* integer = std::get_if<int64_t>(&node.value)) return *integer;
-  constexpr double kExact = 9007199254740992.0;  // 2^53, up to which doubles tell whole numbers apart
+  constexpr double kExact = 9007199254740992.0;  // 2^53, up to which doubles hold all whole numbers
   const auto* number = std::get_if<double>(&node.value);
   if (!number || !(std::abs(*number) <= kExact) || *number != std::floor(*number)) return std::nullopt;
   return static_cast<int64_t>(*number);

@@ -16,7 +16,7 @@ namespace vpm {
 
 /// Wraps a table. Every key asked for becomes a known key; finish() refuses all others. Numbers must be
 /// finite and representable in single precision besides their range. A reader with a default returns
-/// it where the key is missing; one without refuses that. All errors are InputErrors that tell the place.
+/// it where the key is missing; one without refuses that. All errors are InputErrors with the place.
 class TableReader {
  public:
   /// `title` names the table in messages, e.g. "[camera]". Refuses a node that is no table. The files that path()

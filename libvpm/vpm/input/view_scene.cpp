@@ -56,8 +56,8 @@ double density_in(const DensityPiece& piece) {
   return std::max({piece.c0, piece.density(0.5 * length), piece.density(length)});
 }
 
-/// What is told by columns along all axes of the world, with exact integrals; the depth by those along `across`: that
-/// below which nine tenths of the columns stay which meet something dense.
+/// What is measured along columns in all axes of the world, with exact integrals; the depth by those along `across`:
+/// that below which nine tenths of the columns stay which meet something dense.
 DensePart dense_part(const DensityGrid& grid, const Box& box, int across) {
   constexpr double kDense = 0.01;  // of the largest density
   constexpr double kShare = 0.9;

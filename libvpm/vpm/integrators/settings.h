@@ -1,4 +1,4 @@
-// Everything a render can be told besides the scene. Plain values; the defaults here are those of scene files, but for
+// The settings of a render. Plain values; the defaults here are those of scene files, but for
 // that of the distance strategy of photon maps (integrators/describe.cpp).
 #pragma once
 

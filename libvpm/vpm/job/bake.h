@@ -10,7 +10,8 @@ namespace vpm {
 
 struct LightMap {
   RenderResult render;
-  ChannelMoments power;  // of passes: received_power(), W. Texels of a pass have photons in common: they tell no error
+  ChannelMoments
+      power;  // of passes: received_power(), W. Texels of a pass have photons in common: no error follows from them
 };
 
 /// Passes of a light map until the settings' stop rule is met, as render(). The picture is not dilated(). Throws a

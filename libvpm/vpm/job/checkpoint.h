@@ -13,7 +13,7 @@
 namespace vpm {
 
 /// The number of what is written, to be counted up with each change of the fields or of what they mean. A file of
-/// another number is refused. (1: files that do not tell theirs.)
+/// another number is refused. (1: files without a number.)
 inline constexpr int kCheckpointFormat = 9;
 
 /// About how many bytes a checkpoint of the job takes.
@@ -32,7 +32,7 @@ void write_checkpoint(const std::filesystem::path& path, const Identity& identit
 /// Reads a checkpoint back to the last bit. Throws InputError where the file is missing, damaged, or of another format.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 /// What is rendered so far of the render of that identity. Throws InputError, too, where the checkpoint is of another,
-/// and tells in what that differs.
+/// and says in what that differs.
 RenderResult read_checkpoint(const std::filesystem::path& path, const Identity& identity);
 
 /// What is rendered, as bytes for another process of the same program.

@@ -1,4 +1,4 @@
-// What tells one render from another: passes of different renders do not add up.
+// What distinguishes one render from another: passes of different renders do not add up.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace vpm {
 /// decides what passes estimate, and, where the job leaves settings to be chosen, which ones, and which of them were.
 using Identity = std::vector<std::pair<std::string, std::string>>;
 
-/// The identity of a job after choose(). Two scenes made in code are told apart by RenderJob::hash alone.
+/// The identity of a job after choose(). Two scenes made in code differ by RenderJob::hash alone.
 Identity identity_of(const RenderJob& job);
 
 /// The settings that were chosen when the render of this identity began.

@@ -1,4 +1,4 @@
-// What a person is told of a render in words.
+// Messages about a render, in words.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ std::vector<std::string> warnings_of(const RenderJob& job, const RenderResult& r
 /// The same of a light map, which shows no media.
 std::vector<std::string> warnings_of_light_map(const RenderJob& job, const RenderResult& result);
 
-/// The error that the passes are estimated to have, as far as they tell; "" where they are too few.
+/// The estimated error; "" where passes are too few.
 std::string error_text(const RenderJob& job, const RenderResult& result);
 
 }  // namespace vpm

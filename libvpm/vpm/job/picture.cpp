@@ -16,7 +16,7 @@
 namespace vpm {
 namespace {
 
-/// What pictures tell of where they are from.
+/// Where a picture is from.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 Metadata provenance(const RenderJob& job, const Film& film) {
@@ -35,7 +35,7 @@ Image grey_image(const UvLayout& layout, const std::vector<float>& values) {
   return image;
 }
 
-/// What pictures with layers of what the camera sees tell of them.
+/// The meaning of layers of what the camera sees.
 constexpr const char* kViewQuantities =
     "; depth: m to the first surface, 1e10 where there is none; normal: of that surface; albedo: of what scatters "
     "light first; transmittance: of the media before the first surface; single-scattering-albedo: of these media; "

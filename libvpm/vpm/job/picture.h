@@ -1,4 +1,4 @@
-// The picture of a render or a light map as a file: linear EXR with what its passes tell of its error, and where it is
+// The picture of a render or a light map as a file: linear EXR with its estimated error, and where it is
 // from.
 #pragma once
 
@@ -15,7 +15,7 @@
 namespace vpm {
 
 /// The attribute of pictures that holds the variance of the mean over pixels, of red, green and blue, (W/(m^2 sr))^2.
-/// Pixels of photon maps are correlated: it cannot be told from the variances of pixels.
+/// Pixels of photon maps are correlated: it does not follow from the variances of pixels.
 inline constexpr const char* kVarianceOfMeans = "vpm.varianceOfMeans";
 
 /// Further pictures of a render, none before its first pass: its layer_names(), from two passes on with a further layer

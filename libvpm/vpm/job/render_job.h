@@ -1,4 +1,4 @@
-// A job: a scene, how it is to be rendered, and what reports and pictures tell of where it is from. Scene files become
+// A job: a scene, how it is to be rendered, and where it is from, for reports and pictures. Scene files become
 // one, and so do parts put together in code; every front end runs it by the same few calls:
 //
 //   RenderJob job = load_scene("fog.toml");                    // or make_job(assemble(parts))
@@ -34,13 +34,13 @@ struct RenderJob {
   std::vector<std::string> overrides{};  // "key.path=value" options that changed that file
   bool left_out_is_automatic = false;    // was what the file leaves out to be chosen, where that is possible?
   std::vector<std::string> files{};      // that it names: grids, meshes, textures, environments
-  std::string hash{};                    // tells this scene and the settings of its file from others: of the scene
+  std::string hash{};                    // other scenes and settings of files have another: of the scene
                                          // file with its options, and of the bytes of those files, 16 hex digits; of
                                          // scenes made in code what their maker says
   std::vector<std::pair<std::string, std::string>> contents{};  // of the scene file, with its options: what is no
                                                                 // setting, by name; and hashes of those files
   std::optional<KernelLight> kernel_light;                      // once it has been looked for
-  double foreseen_pass = 0.0;                                   // s that a pass takes, once foresee() has told it
+  double foreseen_pass = 0.0;                                   // s that a pass takes, once foresee() has estimated it
   std::string what_fits{};  // would make a pass fit into the time asked for, where none is foreseen to; or ""
   uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
 };
@@ -49,7 +49,7 @@ struct RenderJob {
 /// of the scene's diagonal.
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings = {});
 
-/// Chooses the settings that are left to it, after a short pilot, and tells so in the job's notes; where nothing is
+/// Chooses the settings that are left to it, after a short pilot, and says so in the job's notes; where nothing is
 /// "auto", the radii alone that nothing is said of, without a note. Does nothing where there are none. Where a time is
 /// asked for, the render has what is left of it on the clock, and what takes more than its part of that is given up.
 /// Throws InputError as choose_settings(), and NoPassFits where twice the time is over before the radii are known.
@@ -64,11 +64,11 @@ void choose_again(RenderJob& job, std::vector<Choice> choices);
 void check_not_read(const std::filesystem::path& path, const RenderJob& job);
 
 /// Looks ahead at the first pass. Notes in the job where a ray gathers very many photons, and where it will not fit
-/// into what is left on the clock of the seconds of the stop rule, and what would; or that a look does not tell. Of
-/// four looks at a few photons and rays each may take a tenth of these seconds, and at most a second. Throws InputError
-/// where the photons of a pass will not fit into the memory of the machine.
+/// into what is left on the clock of the seconds of the stop rule, and what would; or that a look is not enough to say.
+/// Of four looks at a few photons and rays each may take a tenth of these seconds, and at most a second. Throws
+/// InputError where the photons of a pass will not fit into the memory of the machine.
 void foresee(RenderJob& job, const Clock& clock = WallClock());
-/// The same of a light map's memory alone: how long its passes take is not told.
+/// The same of a light map's memory alone: how long its passes take is not estimated.
 void foresee_light_map(const RenderJob& job);
 
 /// Measures light that techniques combined find by kernels alone, if there is any, and notes it in the job; or that

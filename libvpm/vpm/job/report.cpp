@@ -1,4 +1,4 @@
-// What a render tells of itself.
+// The report of a render.
 #include "vpm/job/report.h"
 
 #include <fmt/format.h>

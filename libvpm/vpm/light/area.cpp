@@ -80,9 +80,9 @@ float area_of(const DiscLight& light) { return kPi * light.radius * light.radius
 
 /// In the disc's plane to the rounding of its coordinates, which that of the frame about the normal would exceed.
 Vec3 uniform_point(const DiscLight& light, const Vec2& u) {
-  const Vec3d from_centre(point_on_disc(Vec3(0.0f), light.normal, light.radius, u)), normal(light.normal);
-  const double off = glm::dot(from_centre, normal) / glm::dot(normal, normal);
-  return Vec3(Vec3d(light.centre) + from_centre - off * normal);
+  const Vec3d from_center(point_on_disc(Vec3(0.0f), light.normal, light.radius, u)), normal(light.normal);
+  const double off = glm::dot(from_center, normal) / glm::dot(normal, normal);
+  return Vec3(Vec3d(light.center) + from_center - off * normal);
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ Rgb power_of(const DiscLight& light, const Box&) { return kPi * area_of(light) *
 Emission emit_from(const DiscLight& light, const Box& scene, const EmissionNumbers& u) {
   const Vec3 p = uniform_point(light, u.place);
   const Vec3 direction = cosine_hemisphere(light.normal, u.direction);
-  const float slack = disc_slack({light.centre, light.normal, light.radius});
+  const float slack = disc_slack({light.center, light.normal, light.radius});
   return {Ray{leave_surface_at(p, light.normal, direction, slack), direction}, power_of(light, scene), light.normal};
 }
 
@@ -107,13 +107,13 @@ LightPoint draw_place(const DiscLight& light, Rng& rng) {
 float pdf_of(const DiscLight& light, const Vec3&, const SeenLight& seen) { return pdf_by_area(area_of(light), seen); }
 
 LightPlace place_of(const DiscLight& light) {
-  const DiscShape shape{light.centre, light.normal, light.radius};
-  return {bounds_of(shape), leave_surface_at(light.centre, light.normal, light.normal, disc_slack(shape))};
+  const DiscShape shape{light.center, light.normal, light.radius};
+  return {bounds_of(shape), leave_surface_at(light.center, light.normal, light.normal, disc_slack(shape))};
 }
 
 namespace {
 
-/// 1 - cosine of the cone in which the sphere is seen from a point at that distance from its centre; 0 from inside.
+/// 1 - cosine of the cone in which the sphere is seen from a point at that distance from its center; 0 from inside.
 float cone_of(const SphereLight& light, double distance) {
   const double sine = light.radius / distance;
   return sine < 1.0 ? static_cast<float>(sine * sine / (1.0 + std::sqrt((1.0 - sine) * (1.0 + sine)))) : 0.0f;
@@ -128,36 +128,36 @@ Rgb power_of(const SphereLight& light, const Box&) {
 Emission emit_from(const SphereLight& light, const Box& scene, const EmissionNumbers& u) {
   const Vec3 normal = uniform_sphere(u.place);
   const Vec3 direction = cosine_hemisphere(normal, u.direction);
-  const SphereShape shape{light.centre, light.radius};
+  const SphereShape shape{light.center, light.radius};
   const Vec3 origin = leave_surface_at(point_on(shape, normal), normal, direction, sphere_slack(shape));
   return {Ray{origin, direction}, power_of(light, scene), normal};
 }
 
 std::optional<Incident> incident_from(const SphereLight& light, const Vec3& point, Rng& rng) {
-  const Vec3d to_centre = Vec3d(light.centre) - Vec3d(point);
-  const double distance = glm::length(to_centre);
+  const Vec3d to_center = Vec3d(light.center) - Vec3d(point);
+  const double distance = glm::length(to_center);
   const float away = cone_of(light, distance);
   if (away == 0.0f) return std::nullopt;
-  const Vec3 direction = uniform_cone(Vec3(to_centre / distance), away, rng.uniform2());
-  const double along = glm::dot(to_centre, Vec3d(direction));
-  const Vec3d off_axis = to_centre - along * Vec3d(direction);
+  const Vec3 direction = uniform_cone(Vec3(to_center / distance), away, rng.uniform2());
+  const double along = glm::dot(to_center, Vec3d(direction));
+  const Vec3d off_axis = to_center - along * Vec3d(direction);
   // At the cone's rim rounding may carry the direction past the sphere: there the chord is 0.
   const double half_chord =
       std::sqrt(std::max(0.0, double{light.radius} * light.radius - glm::dot(off_axis, off_axis)));
   const float pdf = 1.0f / (2.0f * kPi * away);
-  const Vec3 normal(glm::normalize((along - half_chord) * Vec3d(direction) - to_centre));
+  const Vec3 normal(glm::normalize((along - half_chord) * Vec3d(direction) - to_center));
   return Incident{direction, static_cast<float>(along - half_chord), light.radiance / pdf, pdf, normal};
 }
 
 float pdf_of(const SphereLight& light, const Vec3& point, const SeenLight&) {
-  const float away = cone_of(light, glm::length(Vec3d(light.centre) - Vec3d(point)));
+  const float away = cone_of(light, glm::length(Vec3d(light.center) - Vec3d(point)));
   return away > 0.0f ? 1.0f / (2.0f * kPi * away) : 0.0f;
 }
 
 LightPlace place_of(const SphereLight& light) {
-  const SphereShape shape{light.centre, light.radius};
+  const SphereShape shape{light.center, light.radius};
   const Vec3 normal = glm::normalize(Vec3(0.5470f, 0.7316f, 0.4071f));  // of no symmetry, away from others' edges
-  return {{light.centre - light.radius, light.centre + light.radius},
+  return {{light.center - light.radius, light.center + light.radius},
           leave_surface_at(point_on(shape, normal), normal, normal, sphere_slack(shape))};
 }
 

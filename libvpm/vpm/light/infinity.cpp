@@ -36,11 +36,11 @@ Ray ray_into(const Box& box, const Vec3& direction, const EmissionNumbers& u) {
   return {point_on_face(box, axis, direction[axis] < 0.0f, u.place), direction};
 }
 
-Vec3 point_on_disc(const Vec3& centre, const Vec3& axis, float radius, const Vec2& u) {
+Vec3 point_on_disc(const Vec3& center, const Vec3& axis, float radius, const Vec2& u) {
   const Vec2 d = radius * uniform_disc(u);
   Vec3 s, t;
   make_frame(axis, s, t);
-  return centre + d.x * s + d.y * t;
+  return center + d.x * s + d.y * t;
 }
 
 Rgb power_of(const BeamLight& light, const Box&) { return light.power; }

@@ -84,6 +84,6 @@ Ray ray_into(const Box& box, const Vec3& direction, const EmissionNumbers& u);
 /// A point uniform over the upper or lower face of the box perpendicular to `axis`.
 Vec3 point_on_face(const Box& box, int axis, bool upper, const Vec2& u);
 /// A point uniform over the disc of `radius` perpendicular to the unit vector `axis`.
-Vec3 point_on_disc(const Vec3& centre, const Vec3& axis, float radius, const Vec2& u);
+Vec3 point_on_disc(const Vec3& center, const Vec3& axis, float radius, const Vec2& u);
 
 }  // namespace vpm

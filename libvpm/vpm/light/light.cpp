@@ -31,7 +31,7 @@ std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng) {
   return std::visit(
       Overloads{[](const PointLight& l) { return Point(LightPoint{l.position}); },
                 [](const SpotLight& l) { return Point(LightPoint{l.position}); },
-                [](const SphereLight& l) { return Point(LightPoint{l.centre}); },
+                [](const SphereLight& l) { return Point(LightPoint{l.center}); },
                 [&](const AreaLight auto& l) { return Point(draw_place(l, rng)); },
                 [](const BeamLight&) { return Point(); }, [](const DistantLight auto&) { return Point(); }},
       light);

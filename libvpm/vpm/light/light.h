@@ -30,7 +30,7 @@ struct SpotLight {
 };
 /// Parallel light from a disc, uniform over it.
 struct BeamLight {
-  Vec3 position{0.0f};                // of the disc's centre, m
+  Vec3 position{0.0f};                // of the disc's center, m
   Vec3 direction{0.0f, -1.0f, 0.0f};  // unit
   float radius = 0.1f;                // m, > 0
   Rgb power{1.0f};                    // W
@@ -42,14 +42,14 @@ struct QuadLight {
 };
 /// A disc that emits to the side of its normal.
 struct DiscLight {
-  Vec3 centre{0.0f};              // m
+  Vec3 center{0.0f};              // m
   Vec3 normal{0.0f, 1.0f, 0.0f};  // unit
   float radius = 1.0f;            // m
   Rgb radiance{1.0f};             // W/(m^2 sr)
 };
 /// A sphere that emits outwards.
 struct SphereLight {
-  Vec3 centre{0.0f};    // m
+  Vec3 center{0.0f};    // m
   float radius = 1.0f;  // m
   Rgb radiance{1.0f};   // W/(m^2 sr)
 };
@@ -178,7 +178,7 @@ struct LightPoint {
   Vec3 normal{0.0f};    // unit, outward; zero for point, spot and sphere lights
   float area = 0.0f;    // m^2, over which the point was drawn uniformly; 0 for those lights
 };
-/// Draws a point of a light; of a sphere it is the centre. Places near that point receive more light than those far
+/// Draws a point of a light; of a sphere it is the center. Places near that point receive more light than those far
 /// away. Nothing for parallel light and for lights at infinity, which do not fall off.
 std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng);
 /// sample_towards() from the point `from`, which draw_light_point() drew on that light. Over both draws the mean is the

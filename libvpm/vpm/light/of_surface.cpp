@@ -7,11 +7,11 @@
 namespace vpm {
 
 Light light_of(const SphereShape& sphere, const Rgb& radiance) {
-  return SphereLight{sphere.centre, sphere.radius, radiance};
+  return SphereLight{sphere.center, sphere.radius, radiance};
 }
 
 Light light_of(const DiscShape& disc, const Rgb& radiance) {
-  return DiscLight{disc.centre, disc.normal, disc.radius, radiance};
+  return DiscLight{disc.center, disc.normal, disc.radius, radiance};
 }
 
 /// The corner and the edges, in the order that keeps the normal: a mirror turns the triangles round.

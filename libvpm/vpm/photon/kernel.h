@@ -12,8 +12,8 @@
 namespace vpm {
 
 /// A sum that is linear in a kernel, and the same sum with kernel_correction() in the place of the kernel. The noise of
-/// the two is that of the same photons, so few passes tell the bias: it is minus the mean of `correction` where it goes
-/// as r^2, and minus twice that where it goes as r.
+/// the two is that of the same photons, so few passes are enough to estimate the bias: it is minus the mean of
+/// `correction` where it goes as r^2, and minus twice that where it goes as r.
 template <class T>
 struct KernelPair {
   T value{0.0f};

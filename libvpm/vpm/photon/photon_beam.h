@@ -52,7 +52,7 @@ class BeamRecorder final : public PhotonRecorder {
 
 /// Keeps no more than `most` records, those of all media together; 0: all. Of each of as many equal stretches of the
 /// list of all one is drawn, and takes the power of the stretch: sums over records stay what they are in the mean. At
-/// equal distances they would all be of one part of a lamp, where points of low discrepancy tell the places on it in
+/// equal distances they would all be of one part of a lamp, where points of low discrepancy have the places on it in
 /// turn. Returns the share that is kept.
 template <class Record>
 float thin(std::vector<std::vector<Record>>& by_medium, uint64_t most, Rng& rng) {

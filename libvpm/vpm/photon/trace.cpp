@@ -211,11 +211,11 @@ class PhotonPath {
   const PhotonNumbers& numbers_;
   PhotonNumbers::Lead lead_;
   Part& out_;
-  Recorders of_flights_, of_collisions_, of_hits_;  // those of `out_` that are told of these
+  Recorders of_flights_, of_collisions_, of_hits_;  // those of `out_` that record these
   const DirectionGuide* directions_ = nullptr;      // null: scattering is not guided
   Branch at_;
   std::vector<Branch> waiting_;
-  std::vector<Track> tracks_;  // of the last flight, if a recorder is told of them
+  std::vector<Track> tracks_;  // of the last flight, if a recorder wants them
   float emitted_power_ = 0.0f;
   Rgbd balance_{0.0};  // gone minus emitted, W
   PathWeight weight_;  // of all branches

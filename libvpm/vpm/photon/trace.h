@@ -13,7 +13,7 @@
 
 namespace vpm {
 
-/// What one pass of photon tracing is told.
+/// The settings of one pass of photon tracing.
 struct TraceSettings {
   uint64_t seed = 1;
   uint64_t pass = 0;
@@ -27,10 +27,10 @@ struct TraceSettings {
 };
 
 /// Traces photons in parallel and deposits what becomes of them into the recorders. Photon i depends on the sequence
-/// and (seed, pass, i) alone, and the recorders are told of photons as if these came one after the other. Returns the
+/// and (seed, pass, i) alone, and the recorders see photons as if these came one after the other. Returns the
 /// ledger; the powers that recorders see are those of photons, not yet divided by `emitted_count`.
 ///
-/// Recorders are told of every collision before the choice between absorption and scattering (photons that weighted
+/// Recorders see every collision before the choice between absorption and scattering (photons that weighted
 /// strategies made lighter than a tenth of what was emitted first play roulette), and of every hit of a surface before
 /// it scatters. A photon is direct until its first scattering, reflection or refraction; crossing a boundary is none.
 Ledger trace_photons(const Scene& scene, const DistanceStrategy& strategy, const TraceSettings& settings,

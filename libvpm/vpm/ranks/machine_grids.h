@@ -18,8 +18,8 @@ namespace vpm {
 using GridsOfMedia = std::map<std::string, std::shared_ptr<const DensityGrid>>;
 
 /// By rank 0 of a machine, once it has read the scene: moves the scene's grids into memory that all of the machine's
-/// ranks share, and tells the others. Where the system refuses such memory, it returns why; the scene then keeps its
-/// own grids, and the others are told so.
+/// ranks share, and sends the others word. Where the system refuses such memory, it returns why; the scene then keeps
+/// its own grids, and so do the others.
 std::error_code share_grids(Ranks& machine, Scene& scene);
 
 /// By the others: waits for the grids that are shared. Nothing where rank 0 shares none, so that each is to read its

@@ -1,4 +1,4 @@
-// What ranks tell each other: a pass as bytes, and what rank 0 tells the others before a render and after it, so that
+// The messages between ranks: a pass as bytes, and those of rank 0 to the others before a render and after it, so that
 // all make passes of one picture, and all may have it.
 #pragma once
 
@@ -20,7 +20,7 @@ Pass pass_of(std::string_view bytes);
 /// Tells all other ranks what is to be rendered, by rank 0.
 void tell_render(Ranks& ranks, const Identity& identity);
 
-/// What rank 0 tells by tell_render(), once it does. Throws std::runtime_error where rank 0 is another program.
+/// The message of tell_render(), once it comes. Throws std::runtime_error where rank 0 is another program.
 Identity told_render(Ranks& ranks);
 
 /// Makes the choices that rank 0 has made for a job in which settings are left to be chosen. Throws InputError where
@@ -30,7 +30,7 @@ void render_as_told(RenderJob& job, const Identity& led);
 /// Tells all other ranks what was rendered, by rank 0: to the last bit.
 void tell_result(Ranks& ranks, const RenderResult& result);
 
-/// What rank 0 tells by tell_result(), once it does. Throws FieldError where the message is something else.
+/// The message of tell_result(), once it comes. Throws FieldError where the message is something else.
 RenderResult told_result(Ranks& ranks);
 
 }  // namespace vpm

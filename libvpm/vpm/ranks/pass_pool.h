@@ -28,9 +28,9 @@ class PassPool {
   /// The same, which waits.
   Task take();
 
-  /// A pass that a maker was told to make. One that comes after close() is dropped.
+  /// A pass that a maker was asked for. One that comes after close() is dropped.
   void deliver(int number, Pass pass);
-  /// Pass `number`, once it is delivered. Throws what fail() was told, and Cancelled where the pool is closed or the
+  /// Pass `number`, once it is delivered. Throws what fail() was given, and Cancelled where the pool is closed or the
   /// work of this thread is given up.
   Pass join(int number);
 

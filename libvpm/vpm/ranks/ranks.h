@@ -37,7 +37,7 @@ class Ranks {
 /// InputError where such a vpm is started as one of several, which would all do the same.
 std::unique_ptr<Ranks> join_ranks();
 
-/// How many ranks this process was started with, as those who start them tell it.
+/// How many ranks this process was started with, as those who start them say.
 int started_ranks();
 
 /// Waits for the next message, for milliseconds at a time. It can be given up.

@@ -96,7 +96,7 @@ class Leader {
     return true;
   }
 
-  /// Once: what a rank is told then is the last thing.
+  /// Once: it is the last message to a rank.
   void tell_to_leave(int rank) {
     if (told_to_leave_[rank]) return;
     told_to_leave_[rank] = true;
@@ -136,7 +136,7 @@ class Leader {
   std::thread answering_, making_;  // last: they use the rest
 };
 
-/// What rank 0 tells another rank, also while that makes a pass.
+/// The orders of rank 0 to another rank, also while that makes a pass.
 class Orders {
  public:
   explicit Orders(Ranks& ranks) : ranks_(ranks), listening_([this] { listen(); }) {}
@@ -149,7 +149,7 @@ class Orders {
 
   /// Is there no more to make?
   const std::atomic<bool>& leave() const { return leave_; }
-  /// The number of the next pass, once it is told; nothing where there is no more.
+  /// The number of the next pass, once it comes; nothing where there is no more.
   std::optional<int> next() {
     std::unique_lock lock(mutex_);
     while (!told_.wait_for(lock, kBetweenLooks, [this] { return leave_ || number_; })) cancellation_point();

@@ -18,7 +18,7 @@ namespace vpm {
 RenderResult lead_passes(Ranks& ranks, const StopRule& until, const PassMaker& maker, RenderResult result,
                          const RunControl& control);
 
-/// What the others do, until rank 0 tells them that there is no more. Throws what the maker throws; rank 0 waits for
+/// What the others do, until rank 0 says that there is no more. Throws what the maker throws; rank 0 waits for
 /// that pass then, so that ranks are to be aborted.
 void make_passes(Ranks& ranks, const PassMaker& maker);
 

@@ -1,4 +1,4 @@
-// The clock's limit, and what a pass that is under way tells of its end.
+// The clock's limit, and when a pass that is under way will end.
 #include "vpm/render/pass_time.h"
 
 #include <fmt/format.h>

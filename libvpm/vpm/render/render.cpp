@@ -127,7 +127,7 @@ RenderResult run_passes(const StopRule& until, const PassMaker& passes, RenderRe
   const int missing = counted ? std::max(0, until.passes - result.film.passes()) : 0;
   const bool single = counted && missing == 1 && passes.blocks == 1;
   PassTime time(until, passes, control, earlier);
-  // A pass or a block begins with its photons: what is done before its end does not tell how long it takes.
+  // A pass or a block begins with its photons: how long it takes does not follow from what is done before its end.
   Progress bar("render", counted ? passes.work * passes.blocks * static_cast<uint64_t>(missing) : 1000,
                shown && !single, counted ? passes.work : 1);
   ProgressNote note(until);

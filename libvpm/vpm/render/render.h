@@ -38,11 +38,11 @@ std::string passes_text(int passes);
 /// How a render is watched.
 struct RunControl {
   ProgressMode progress = ProgressMode::never;
-  std::function<void(const RenderResult&)> finished = {};              // is told of each further pass
+  std::function<void(const RenderResult&)> finished = {};              // called after each further pass
   std::shared_ptr<const Clock> clock = std::make_shared<WallClock>();  // of the run, which may have begun before
   double foreseen = 0.0;                                               // s that a pass takes; 0: not known
   std::string what_fits = {};                         // in the place of a pass that does not fit; or ""
-  std::function<void(const std::string&)> note = {};  // is told of a first pass that ends late, on another thread
+  std::function<void(const std::string&)> note = {};  // called, on another thread, where the first pass ends late
 };
 
 /// The time that was asked for is over, and not one pass is finished.
@@ -56,8 +56,8 @@ class NoPassFits : public std::runtime_error {
   double pass_;
 };
 
-/// Pass number `number` of any kind, to be made after those in `so_far`. In its course it tells its bar of `work` units
-/// for each block of its photons.
+/// Pass number `number` of any kind, to be made after those in `so_far`. In its course it advances its bar by `work`
+/// units for each block of its photons.
 struct PassMaker {
   std::function<Pass(int number, const RenderResult& so_far, const PassProgress& progress)> make;
   uint64_t work = 0;
@@ -85,7 +85,7 @@ RenderResult nothing_rendered(const Camera& camera);
 /// The errors of the film, read off it where the result does not hold them; nothing below two passes.
 std::optional<FilmErrors> errors_of(const RenderResult& result);
 
-/// What errors_of() tell of the relative MSE; nothing below kLeastPasses passes, which say too little.
+/// The relative MSE by errors_of(); nothing below kLeastPasses passes, which say too little.
 std::optional<StatedError> stated_error_of(const RenderResult& result);
 /// StatedError::highest, infinite where nothing is stated: a render that asks for an error goes on until it is no more
 /// than that.

@@ -16,7 +16,7 @@ struct Filter {
   FilterKind kind = FilterKind::box;
   float radius = 0.5f;  // half width, pixels; a gaussian's standard deviation is a third of it
 };
-/// An offset from the pixel's centre in pixels, distributed as the filter over the square |x|, |y| <= radius. `u` is
+/// An offset from the pixel's center in pixels, distributed as the filter over the square |x|, |y| <= radius. `u` is
 /// uniform in [0, 1)^2.
 Vec2 sample_filter(const Filter& filter, const Vec2& u);
 /// The density of such an offset, 1/pixel^2.

@@ -55,7 +55,7 @@ std::optional<MediumId> follow(const Scene& scene, const Encounter& met, const V
 }
 
 void follow_media(const Scene& scene, const Probe& probe, std::vector<Tally>& tallies) {
-  Ray ray = probe.from(glm::distance(probe.target, scene.bounds.centre()) + 0.55f * scene.bounds.diagonal());
+  Ray ray = probe.from(glm::distance(probe.target, scene.bounds.center()) + 0.55f * scene.bounds.diagonal());
   MediumId medium = scene.world_medium;
   for (int i = 0; i < kMostEncounters; ++i) {
     const Encounter met = scene.geometry.division(ray);
@@ -76,7 +76,7 @@ bool coincide(const Hit& a, const Hit& b) {
   return glm::length(glm::cross(a.normal, b.normal)) < kParallel && apart <= std::max(departure(a), departure(b));
 }
 
-/// Must light meet the boundary as well as the dielectric? A dielectric that names its media tells what is behind both.
+/// Must light meet the boundary as well as the dielectric? A dielectric that names its media says what is behind both.
 bool hides(const Scene& scene, const Hit& dielectric, const Hit& boundary) {
   return is_dielectric(scene.material_of(dielectric)) && !scene.shapes[dielectric.shape].separates_media &&
          is_boundary(scene.material_of(boundary));
@@ -140,14 +140,14 @@ namespace {
 void note_unresolved_place(const Box& bounds, std::vector<std::string>& notes) {
   if (bounds.empty()) return;
   constexpr double kVisible = 1e-4;  // of the scene's size
-  const Vec3 apart = glm::abs(bounds.centre());
+  const Vec3 apart = glm::abs(bounds.center());
   const float far = std::max({apart.x, apart.y, apart.z});
   const double spacing = double(std::nextafter(far, kInfinity)) - far;
   if (spacing > kVisible * bounds.diagonal())
     notes.push_back(fmt::format(
         "the scene, {:.2g} m across, is {:.2g} m from the origin, where positions are {:.2g} m apart: its shapes are "
         "rounded to that; move it to the origin",
-        bounds.diagonal(), glm::length(bounds.centre()), spacing));
+        bounds.diagonal(), glm::length(bounds.center()), spacing));
 }
 
 /// Tells of media whose free paths are shorter than floats resolve positions: what enters these does not come out
@@ -156,7 +156,7 @@ void note_unresolved_media(const Scene& scene, std::vector<std::string>& notes) 
   constexpr double kSparse = 0.1;  // of a grid's diagonal
   const Box& bounds = scene.bounds;
   const double resolved =
-      0x1p-20 * (glm::length(bounds.centre()) + 0.5 * bounds.diagonal());  // m: a few units in the last place
+      0x1p-20 * (glm::length(bounds.center()) + 0.5 * bounds.diagonal());  // m: a few units in the last place
   for (const Medium& medium : scene.media) {
     const double extinction = double(max_channel(medium.sigma_t)) * medium.max_density();  // 1/m
     if (!medium.scatters() || !(extinction * resolved > 1.0)) continue;

@@ -126,7 +126,7 @@ MediumId medium_at(const Scene& scene, const Vec3& point) {
 }
 
 MediumId medium_around(const Scene& scene, const Vec3& point) {
-  // On a boundary, rays to its two sides tell different media.
+  // On a boundary, rays to its two sides find different media.
   for (const Vec3& probe : kProbes)
     if (medium_along(scene, {point, probe}) != medium_along(scene, {point, -probe})) return kSeveralMedia;
   return medium_at(scene, point);

@@ -12,7 +12,7 @@ namespace {
 
 /// Embree leaves out what is beyond 1.8e18 m; squares of coordinates must stay finite in float too.
 constexpr float kMaxCoordinate = 1e9f;
-/// Beyond it floats tell too few places in a repeated picture apart.
+/// Beyond it floats have too few places in a repeated picture.
 constexpr float kMaxUv = 1e6f;
 
 bool in_range(const Vec3& p) {
@@ -67,8 +67,8 @@ std::vector<glm::uvec3> checked_triangles(const TriangleMesh& mesh) {
   return proper;
 }
 
-void check_round(const char* title, const Vec3& centre, float radius) {
-  if (!in_range(centre)) throw InputError(std::string(title) + ": the centre is not finite or beyond 1e9 m");
+void check_round(const char* title, const Vec3& center, float radius) {
+  if (!in_range(center)) throw InputError(std::string(title) + ": the centre is not finite or beyond 1e9 m");
   if (!(radius > 0.0f && radius <= kMaxCoordinate)) {
     throw InputError(std::string(title) + ": the radius is " + std::to_string(radius) +
                      " m, it must be positive and at most 1e9 m");

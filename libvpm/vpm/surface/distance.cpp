@@ -32,11 +32,11 @@ double distance_to_triangle(const Vec3& point, const Vec3& a, const Vec3& b, con
 }
 
 double distance_to(const SphereShape& sphere, const Vec3& point) {
-  return std::abs(glm::length(Vec3d(point) - Vec3d(sphere.centre)) - sphere.radius);
+  return std::abs(glm::length(Vec3d(point) - Vec3d(sphere.center)) - sphere.radius);
 }
 
 double distance_to(const DiscShape& disc, const Vec3& point) {
-  const Vec3d way = Vec3d(point) - Vec3d(disc.centre), normal(disc.normal);
+  const Vec3d way = Vec3d(point) - Vec3d(disc.center), normal(disc.normal);
   const double height = glm::dot(way, normal);
   const double beyond_rim = std::max(0.0, glm::length(way - height * normal) - disc.radius);
   return std::hypot(height, beyond_rim);

@@ -22,7 +22,7 @@ template <class S>
 void own_bounds(const RTCBoundsFunctionArguments* args) {
   const auto& s = *static_cast<const S*>(args->geometryUserPtr);
   const Box box = bounds_of(s);
-  const Vec3 margin = 0x1p-22f * (glm::abs(s.centre) + s.radius);  // rounding must not cut the shape
+  const Vec3 margin = 0x1p-22f * (glm::abs(s.center) + s.radius);  // rounding must not cut the shape
   const Vec3 lo = box.lo - margin, hi = box.hi + margin;
   *args->bounds_o = RTCBounds{lo.x, lo.y, lo.z, 0.0f, hi.x, hi.y, hi.z, 0.0f};
 }

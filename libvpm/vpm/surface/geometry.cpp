@@ -49,12 +49,12 @@ uint32_t Geometry::Impl::add_own(const S& shape, double area, Layer layer) {
 }
 
 uint32_t Geometry::add(const SphereShape& sphere, Layer layer) {
-  check_round("sphere", sphere.centre, sphere.radius);
+  check_round("sphere", sphere.center, sphere.radius);
   return impl_->add_own(sphere, 4.0 * kPiD * double{sphere.radius} * sphere.radius, layer);
 }
 
 uint32_t Geometry::add(const DiscShape& disc, Layer layer) {
-  check_round("disc", disc.centre, disc.radius);
+  check_round("disc", disc.center, disc.radius);
   assert(std::abs(glm::length(disc.normal) - 1.0f) < 1e-5f);
   return impl_->add_own(disc, kPiD * double{disc.radius} * disc.radius, layer);
 }

@@ -21,12 +21,12 @@ struct TriangleMesh {
   std::vector<Vec2> uvs{};      // texture coordinates of the vertices; empty: none
 };
 struct SphereShape {
-  Vec3 centre{0.0f};    // m
+  Vec3 center{0.0f};    // m
   float radius = 1.0f;  // m, > 0
 };
 /// One flat disc.
 struct DiscShape {
-  Vec3 centre{0.0f};              // m
+  Vec3 center{0.0f};              // m
   Vec3 normal{0.0f, 1.0f, 0.0f};  // unit, outward
   float radius = 1.0f;            // m, > 0
 };
@@ -147,7 +147,7 @@ Vec3 leave_surface_at(const Vec3& position, const Vec3& normal, const Vec3& dire
 float flat_slack(const Vec3& normal, const Vec3& reach, double twice_area);
 /// Slack of a disc, m.
 float disc_slack(const DiscShape& disc);
-/// Does the surface that the ray hit lie at `distance` (m) along the ray or beyond it, as far as rounding can tell?
+/// Does the surface that the ray hit lie at `distance` (m) along the ray or beyond it, within rounding?
 bool stands_at(const Hit& hit, const Ray& ray, float distance);
 /// Slack of a sphere, m, at its points as point_on() gives them.
 float sphere_slack(const SphereShape& sphere);

@@ -11,20 +11,20 @@
 namespace vpm {
 
 double intersect_sphere(const SphereShape& sphere, const Ray& ray, float t_min) {
-  // The quadratic a t^2 - 2 b t + c = 0 [Haines2019, sec. 7.2]: the discriminant from the distance of the centre to the
+  // The quadratic a t^2 - 2 b t + c = 0 [Haines2019, sec. 7.2]: the discriminant from the distance of the center to the
   // ray, which does not cancel for far spheres, and the smaller root without a difference of near equals.
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const Vec3d from_centre = Vec3d(ray.origin) - Vec3d(sphere.centre);
+  const Vec3d from_center = Vec3d(ray.origin) - Vec3d(sphere.center);
   const Vec3d d(ray.direction);
   const double radius = sphere.radius;
   const double a = glm::dot(d, d);
-  const double b = -glm::dot(from_centre, d);
-  const Vec3d nearest = from_centre + (b / a) * d;
+  const double b = -glm::dot(from_center, d);
+  const Vec3d nearest = from_center + (b / a) * d;
   const double discriminant = a * (radius * radius - glm::dot(nearest, nearest));
   if (!(discriminant >= 0.0)) return kNone;
   const double q = b + std::copysign(std::sqrt(discriminant), b);
   if (q == 0.0) return kNone;
-  const double distance = glm::length(from_centre);
+  const double distance = glm::length(from_center);
   const double c = (distance - radius) * (distance + radius);
   const double t0 = b > 0.0 ? c / q : q / a;
   const double t1 = b > 0.0 ? q / a : c / q;
@@ -33,11 +33,11 @@ double intersect_sphere(const SphereShape& sphere, const Ray& ray, float t_min) 
 }
 
 Vec3 point_on(const SphereShape& sphere, const Vec3d& normal) {
-  return Vec3(Vec3d(sphere.centre) + sphere.radius / glm::length(normal) * normal);
+  return Vec3(Vec3d(sphere.center) + sphere.radius / glm::length(normal) * normal);
 }
 
 Vec3d sphere_normal(const SphereShape& sphere, const Ray& ray, double t) {
-  return glm::normalize((Vec3d(ray.origin) - Vec3d(sphere.centre)) + t * Vec3d(ray.direction));
+  return glm::normalize((Vec3d(ray.origin) - Vec3d(sphere.center)) + t * Vec3d(ray.direction));
 }
 
 Vec2 sphere_uv(const Vec3& normal) {
@@ -49,21 +49,21 @@ Vec2 sphere_uv(const Vec3& normal) {
 double intersect_disc(const DiscShape& disc, const Ray& ray, float t_min) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const Vec3d normal(disc.normal);
-  const double t = glm::dot(Vec3d(disc.centre) - Vec3d(ray.origin), normal) / glm::dot(Vec3d(ray.direction), normal);
+  const double t = glm::dot(Vec3d(disc.center) - Vec3d(ray.origin), normal) / glm::dot(Vec3d(ray.direction), normal);
   if (!(t >= t_min && t < kNone)) return kNone;  // NaN: a ray within the plane
-  const Vec3d from_centre = disc_point(disc, ray, t) - Vec3d(disc.centre);
-  return glm::dot(from_centre, from_centre) <= double{disc.radius} * disc.radius ? t : kNone;
+  const Vec3d from_center = disc_point(disc, ray, t) - Vec3d(disc.center);
+  return glm::dot(from_center, from_center) <= double{disc.radius} * disc.radius ? t : kNone;
 }
 
 Vec3d disc_point(const DiscShape& disc, const Ray& ray, double t) {
   const Vec3d normal(disc.normal);
-  const Vec3d from_centre = (Vec3d(ray.origin) - Vec3d(disc.centre)) + t * Vec3d(ray.direction);
-  return Vec3d(disc.centre) + from_centre - glm::dot(from_centre, normal) / glm::dot(normal, normal) * normal;
+  const Vec3d from_center = (Vec3d(ray.origin) - Vec3d(disc.center)) + t * Vec3d(ray.direction);
+  return Vec3d(disc.center) + from_center - glm::dot(from_center, normal) / glm::dot(normal, normal) * normal;
 }
 
 Box bounds_of(const DiscShape& disc) {
   const Vec3 half = disc.radius * glm::sqrt(glm::max(Vec3(0.0f), 1.0f - disc.normal * disc.normal));
-  return {disc.centre - half, disc.centre + half};
+  return {disc.center - half, disc.center + half};
 }
 
 namespace {

@@ -54,13 +54,13 @@ void locate(const DiscShape& disc, const Ray& ray, const Crossing& met, Hit& hit
 /// The same of a given point of a triangle: it lies in the plane.
 void locate(const MeshShape& mesh, uint32_t triangle, const Vec2& barycentric, Hit& hit);
 
-/// The smallest root t >= t_min > 0 of |origin + t direction - centre| = radius, in m; infinity where there is none.
+/// The smallest root t >= t_min > 0 of |origin + t direction - center| = radius, in m; infinity where there is none.
 double intersect_sphere(const SphereShape& sphere, const Ray& ray, float t_min);
 /// The outward unit normal at the point of the sphere next to origin + t direction.
 Vec3d sphere_normal(const SphereShape& sphere, const Ray& ray, double t);
 /// The box around a sphere.
 inline Box bounds_of(const SphereShape& sphere) {
-  return {sphere.centre - sphere.radius, sphere.centre + sphere.radius};
+  return {sphere.center - sphere.radius, sphere.center + sphere.radius};
 }
 
 /// The coordinates in a texture of the point of a sphere with that unit outward normal: u the angle about the y axis

@@ -14,7 +14,7 @@
 namespace vpm {
 namespace {
 
-constexpr uint64_t kPhotonsOfPilot = 100'000, kPhotonsOfDefaults = 20'000;  // that tell of densities
+constexpr uint64_t kPhotonsOfPilot = 100'000, kPhotonsOfDefaults = 20'000;  // by which densities are measured
 
 /// A gather radius to be chosen.
 struct OpenRadius {
@@ -58,7 +58,7 @@ RenderSettings as_maps(const RenderSettings& settings) {
 }
 
 /// Merges of combined techniques lose light within a radius of borders, and other techniques find what few photons do
-/// not: they are no wider than what is taken where nobody chooses, unless a pilot then tells of less error.
+/// not: they are no wider than what is taken where nobody chooses, unless a pilot then measures less error.
 ChosenRadius narrow(const ChosenRadius& chosen, const OpenRadius& open, const Scene& scene) {
   AskedGather usual = open.gather;
   usual.radius = {};

@@ -13,7 +13,7 @@ struct CountedWork {
   double of_photons = 0.0;  // of these, what goes with the photons or light sub-paths that are found
 };
 
-/// Of rays from the eye, by the settings' integrator. Fitted to the times of 14 scenes, of which most are told to a
+/// Of rays from the eye, by the settings' integrator. Fitted to the times of 14 scenes, of which most are met to a
 /// tenth; of pools of water and glasses of milk, where shares at borders are not counted, half (papers/performance.md).
 CountedWork counted_work(const Scene& scene, const RenderSettings& settings, const EyeCounters& eye);
 

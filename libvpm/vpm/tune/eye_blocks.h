@@ -17,7 +17,7 @@ inline constexpr size_t kEyeBlocks = 64;  // parts of the picture, eight in eith
 inline constexpr size_t kRaysOfBlock = kEyeRays;
 
 /// Which pixels of its part of the picture a block has: those in the middle, side by side as rays of a picture are
-/// followed, which tell what these take; or evenly spread ones, which see all edges of light.
+/// followed, which show what these cost; or evenly spread ones, which see all edges of light.
 enum class BlockPixels { side_by_side, spread };
 
 /// Some rays of a block, to be followed together.

@@ -62,7 +62,7 @@ std::string fitting_text(double photons, const RenderSettings& settings, double 
   return text;
 }
 
-/// Light sub-paths are kept whole, and sorted beside themselves: told by the first of them.
+/// Light sub-paths are kept whole, and sorted into a copy: estimated from the first of them.
 double bytes_of_sub_path(const Scene& scene, const RenderSettings& settings) {
   constexpr uint64_t kFew = 1000;
   const RenderSettings few = with_light_paths(settings, kFew);

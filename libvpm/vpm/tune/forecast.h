@@ -1,4 +1,4 @@
-// What a pass will take of time and of memory, told before the first.
+// The time and the memory that a pass will take, estimated before the first.
 #pragma once
 
 #include <string>
@@ -17,11 +17,11 @@ std::string photons_that_fit(const PassCost& cost, const RenderSettings& setting
 std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking);
 
 /// "a ray from the eye gathers about 430000 photons, ...": where it gathers more than 100,000 within the radii of
-/// the first pass; else "". A few photons and rays tell.
+/// the first pass; else "". Estimated from a few photons and rays.
 std::string wide_gather_text(const Scene& scene, const RenderSettings& settings);
 
 /// About how many bytes the photons or light sub-paths that a pass, or a block of it, stores take while maps are made;
-/// 0 where there are none. A few are traced to tell.
+/// 0 where there are none. A few are traced for that.
 double bytes_of_maps(const Scene& scene, const RenderSettings& settings, PassOf of);
 /// Throws InputError where the photons that a pass, or a block of it, stores take more than `memory` bytes. Only where
 /// they may be many does it trace some.

@@ -1,4 +1,4 @@
-// Lost light is told by what there is: nothing is traced.
+// Lost light follows from what the scene has: nothing is traced.
 #include "vpm/tune/lost_light.h"
 
 #include <fmt/format.h>

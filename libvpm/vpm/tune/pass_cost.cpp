@@ -47,13 +47,13 @@ RenderedBlock render_block(const Scene& scene, const RenderSettings& settings, c
   return rendered;
 }
 
-/// What an eye pass takes, told by rays of blocks of pixels all over the picture.
+/// What an eye pass takes, by rays of blocks of pixels all over the picture.
 struct EyeCost {
   double seconds = 0.0;
   double of_photons = 0.0;  // the share of them that goes with the number of photons; 0 where nothing is counted
 };
-/// Takes about so many seconds. The clock tells of rays that are taken together, as a pass does, which saves up to nine
-/// tenths of their time; where the time was too short for that, their counts tell.
+/// Takes about so many seconds. The clock measures rays that are taken together, as a pass does, which saves up to nine
+/// tenths of their time; where the time was too short for that, they are counted.
 EyeCost time_eye_pass(const Scene& scene, const RenderSettings& settings, const RadianceOfRays& radiance,
                       double seconds) {
   std::array<RenderedBlock, kEyeBlocks> blocks;
@@ -169,7 +169,7 @@ ReadyPass make_ready_within(const Scene& scene, const RenderSettings& settings, 
   }
 }
 
-/// What a pass's photons cost, told by a part of them. Sorting goes by the number stored.
+/// What a pass's photons cost, by a part of them. Sorting goes by the number stored.
 PassCost cost_of_photons(const RenderSettings& settings, const ReadyPass& ready) {
   const RenderStatistics& s = ready.statistics;
   if (s.ledger.emitted_count == 0) return {};

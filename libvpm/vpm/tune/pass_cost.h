@@ -7,8 +7,8 @@
 
 namespace vpm {
 
-/// Is what a pass costs told by a clock? It is where the render's time is limited, which no count can tell, or where
-/// this program counts nothing (VPM_COUNTERS=OFF). Else it is told by counts, in seconds of one thread of CountedWork.
+/// Is the cost of a pass measured by a clock? It is where the render's time is limited, to which counts say nothing, or
+/// where this program counts nothing (VPM_COUNTERS=OFF). Else it is counted, in seconds of one thread of CountedWork.
 bool goes_by_clock(const RenderSettings& settings);
 
 /// What a pass costs, s, by a clock or by counts.
@@ -30,7 +30,7 @@ struct PassCost {
 };
 /// Renders with the photons of a pass, of either kind a million stored ones at the most, or with as many of its light
 /// sub-paths as 200 MB hold, a sample of its rays. Takes about so many seconds at the most, of a clock or counted: then
-/// photons are fewer than the settings say, and the eye pass is told from how many it finds of these.
+/// photons are fewer than the settings say, and the cost of the eye pass is scaled by how many it finds of these.
 PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds = kInfinity);
 
 /// What passes show: a picture what the eye sees, a light map surfaces alone.

@@ -23,7 +23,7 @@ constexpr uint64_t kFlights = 20'000;      // photons that compare strategies
 constexpr uint64_t kStored = 1'000'000;    // of a pilot's photons, at the most
 constexpr size_t kEyePaths = 4096;         // that find where the eye gathers
 constexpr size_t kProbes = 512;            // places, of these
-constexpr size_t kFlightsAround = 32'000;  // that tell how near to these flights pass, at the most
+constexpr size_t kFlightsAround = 32'000;  // by which distances of flights are measured, at the most
 constexpr uint32_t kNeighbours = 16;       // counted at a place: the density there is known to a quarter
 
 // What flights cost, in look-ups of density at random places: fitted to the CPU time of photons in the grids of

@@ -1,4 +1,4 @@
-// The pilot of automatic settings: a few photons and a few rays from the eye tell what a render costs and finds.
+// The pilot of automatic settings: a few photons and a few rays from the eye measure what a render costs and finds.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Differences between passes and between rays of a pass tell the noise of photons and that of rays; products of
-// corrections of different passes tell bias. Ways to render tell of each other what they have not seen.
+// Differences between passes and between rays of a pass measure the noise of photons and that of rays; products of
+// corrections of different passes measure bias. What one way to render has not seen, others may show.
 #include "vpm/tune/pilot_error.h"
 
 #include <algorithm>

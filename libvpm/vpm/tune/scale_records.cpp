@@ -1,4 +1,4 @@
-// Two measurements, at the chosen radii and at others, tell of all factors.
+// All factors are estimated from two measurements, at the chosen radii and at others.
 #include "vpm/tune/scale_records.h"
 
 #include <fmt/format.h>
@@ -18,10 +18,10 @@
 namespace vpm {
 namespace {
 
-// The other radii that are measured are wide, as bias is there told best from noise, but no wider than the widest;
+// The other radii that are measured are wide, as bias there stands out best from noise, but no wider than the widest;
 // narrow ones where some nearly are.
 constexpr double kWider = 4.0, kLeastWider = 1.4, kNarrower = 0.5;
-constexpr double kOfOrders = 2.5;  // at edges squared bias is four times what corrections tell: a middle
+constexpr double kOfOrders = 2.5;  // at edges squared bias is four times that of corrections: a middle
 
 bool is_radius(const Choice& choice) { return choice.key.ends_with(".radius"); }
 bool is_number(const Choice& choice) { return choice.key == "integrator.photons.emitted"; }

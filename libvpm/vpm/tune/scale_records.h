@@ -1,4 +1,4 @@
-// Radii and the number of photons, changed to what is told to leave less error.
+// Radii and the number of photons, scaled to what is estimated to leave less error.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct RecordFactors {
   bool operator==(const RecordFactors&) const = default;
 };
 
-/// What a pilot tells of passes by these factors. It takes about four times `limit` s, or twice where no radius was
+/// What a pilot measures of passes by these factors. It takes about four times `limit` s, or twice where no radius was
 /// chosen.
 class ScaledPasses {
  public:
@@ -29,9 +29,9 @@ class ScaledPasses {
   /// The relative MSE after so many passes. `unseen` is what rays do not show of the error of one ray.
   double error_after_passes(double passes, const RecordFactors& factors, double unseen = 0.0) const;
   /// Radii of 0.5 to 2 times those chosen, and, unless passes are counted, a number of photons of 0.5 to 2 times what
-  /// was chosen: the factors which are told to leave the least error in the render's time. Wider kernels have less
+  /// was chosen: the factors which are estimated to leave the least error in the render's time. Wider kernels have less
   /// noise and more bias, and take longer; more photons leave less noise of theirs, and less time for rays. They are 1
-  /// unless others are told to leave clearly less.
+  /// unless others are estimated to leave clearly less.
   RecordFactors best_factors() const;
 
  private:

@@ -131,7 +131,7 @@ double limit_of_timing(const RenderSettings& settings) {
   return seconds > 0.0 ? kTimingShare * seconds : kInfinity;
 }
 
-/// The same of each of the four that tell how to scale records.
+/// The same of each of the four by which records are scaled.
 double limit_of_scaling(const RenderSettings& settings) {
   constexpr double kPart = 0.5, kUnlimited = 0.25;
   return std::min(kPart * limit_of_timing(settings), kUnlimited);

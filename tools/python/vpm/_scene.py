@@ -21,7 +21,7 @@ class Grid:
     values: array (nx, ny, nz) of densities >= 0, of no unit; a medium multiplies them by its coefficients, which are
         those at density 1. Values are read as float32, without a copy where they are; between voxels they are
         interpolated, and outside the array the density is 0.
-    transform: array (4, 4) that takes the index (i, j, k, 1) of a voxel, whose value sits at its centre, to its
+    transform: array (4, 4) that takes the index (i, j, k, 1) of a voxel, whose value sits at its center, to its
         position (x, y, z, 1) in m. Without one, voxels are 1 m apart, and the first is at the origin. The key
         `transform` of the medium is applied after it.
     """

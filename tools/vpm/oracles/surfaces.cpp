@@ -28,9 +28,9 @@ OracleLight one(const Light& light, double size) {
 /// A parallelogram that turns its front to the receiver.
 QuadLight facing_quad(const OracleCase& c, const Vec3d& receiver) {
   Vec3d u = c.vector("edge_u"), v = c.vector("edge_v");
-  const Vec3d centre = c.vector("center");
-  if (glm::dot(glm::cross(u, v), receiver - centre) < 0.0) std::swap(u, v);
-  return {Vec3(centre - 0.5 * (u + v)), Vec3(u), Vec3(v), Rgb(as_float(c.number("radiance")))};
+  const Vec3d center = c.vector("center");
+  if (glm::dot(glm::cross(u, v), receiver - center) < 0.0) std::swap(u, v);
+  return {Vec3(center - 0.5 * (u + v)), Vec3(u), Vec3(v), Rgb(as_float(c.number("radiance")))};
 }
 
 /// A disc that faces down. Irradiance below it varies over its height at the rim, and over the distance beyond.
@@ -131,7 +131,7 @@ Check check_hits(const OracleCase& c, const Cavity& cavity, const Effort& effort
   return check_mean("total_incident_power", hits, per_watt(c, "total_incident_power"));
 }
 
-/// A source at the centre: the same irradiance everywhere.
+/// A source at the center: the same irradiance everywhere.
 /// The share of reflected light that maps miss in a sphere.
 constexpr double kMissed = kCapLoss * kCapRadius * kCapRadius;
 
@@ -157,7 +157,7 @@ void check_sphere(std::vector<Check>& checks, const OracleCase& c, const Cavity&
       check_mean("indirect_fluence over 4 pi by path tracing", seen, per_watt(c, "indirect_fluence") / (4.0 * kPiD)));
 }
 
-void check_off_centre(std::vector<Check>& checks, const OracleCase& c, Cavity cavity, const Effort& effort) {
+void check_off_center(std::vector<Check>& checks, const OracleCase& c, Cavity cavity, const Effort& effort) {
   const uint64_t seed = effort.seed_of(c.place());
   const double angle = c.number("polar_angle_deg") * kPiD / 180.0, offset = c.number("source_distance_from_centre");
   cavity.source = Vec3(0.0f, 0.0f, as_float(offset));
@@ -189,7 +189,7 @@ CaseResult run_cavity(const OracleCase& c, const Effort& effort) {
   }
   cavity.size = c.number_in("R", 1e-3, 1e6);
   if (c.has("E_total_everywhere")) check_sphere(result.checks, c, cavity, effort);
-  if (c.has("polar_angle_deg")) check_off_centre(result.checks, c, cavity, effort);
+  if (c.has("polar_angle_deg")) check_off_center(result.checks, c, cavity, effort);
   return result;
 }
 

@@ -36,7 +36,7 @@ class BrickFiller {
  private:
   static constexpr int kValues = DensityGrid::kValues;
   static constexpr int kLeaf = 8;
-  static constexpr int kLeafDepth = FloatTree::DEPTH - 1;  // as a tree tells the depth of a value
+  static constexpr int kLeafDepth = FloatTree::DEPTH - 1;  // as a tree gives the depth of a value
 
   /// The value of a brick that lies outside the box, or inside it where tiles have one value; false for others. Most
   /// bricks of a sparse grid are such.

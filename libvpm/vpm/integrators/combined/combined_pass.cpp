@@ -13,7 +13,7 @@ namespace vpm {
 namespace {
 
 constexpr size_t kPathChunk = 2048;   // light sub-paths traced one after another
-constexpr uint64_t kFewPaths = 256;   // that tell how many vertices there are to connect to, and how many flights
+constexpr uint64_t kFewPaths = 256;   // by which the number of vertices to connect to is estimated
 constexpr size_t kFewLights = 4;      // that are all sampled where an eye sub-path has one vertex for it
 constexpr float kBeamRadius = 0.25f;  // of that of points: wider beams cost as much time as they save in noise
 constexpr double kConnections = 1.0;  // of each vertex of an eye sub-path, to vertices of light sub-paths
@@ -97,7 +97,7 @@ LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& number
 void count_by_few(const LightTracing& tracing, const RenderSettings& settings, int pass, TechniqueCounts& counts) {
   const uint64_t paths = settings.photons_emitted, number = std::min(paths, kFewPaths);
   if (!counts.light) return;
-  // Numbers beyond those of the pass: at random, as points of one scrambling tell of each other.
+  // Numbers beyond those of the pass: at random, as points of one scrambling depend on each other.
   const PhotonNumbers numbers(PhotonSequence::random, settings.seed, static_cast<uint64_t>(pass));
   const LightSubPaths few = few_paths(tracing, numbers, paths, number);
   counts.connections =

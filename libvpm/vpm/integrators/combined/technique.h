@@ -28,7 +28,7 @@ inline constexpr std::array<TechniqueInfo, 6> kTechniques{
      {Technique::points_2d, "points-2d", "photons in media around whole rays from the camera"},
      {Technique::short_beams, "short-beams", "flights of photons that cross whole rays from the camera"}}};
 
-/// A set of techniques: all, unless told otherwise.
+/// A set of techniques, by default all.
 class TechniqueSet {
  public:
   constexpr TechniqueSet() = default;

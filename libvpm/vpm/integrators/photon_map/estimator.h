@@ -22,7 +22,7 @@ struct PhotonBeam;
 struct MapInfo {
   std::string_view section;                                 // of the scene file, that holds its settings
   int dimension = 3;                                        // of its kernel
-  bool shows_bias = true;                                   // its estimates tell the correction of their kernels
+  bool shows_bias = true;                                   // its estimates have the correction of their kernels
   const std::vector<std::vector<Photon>>* media = nullptr;  // its photons before build(), by medium ...
   const std::vector<Photon>* surfaces = nullptr;            // ... or on surfaces; W, of `emitted` photons
   uint64_t emitted = 0;                                     // for this map alone; 0: as many as in the ledger

@@ -41,7 +41,7 @@ void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators
 /// Does such a render cast shadow rays?
 bool casts_shadow_rays(const SceneFacts& facts, const RenderSettings& settings);
 
-/// The sections of the scene file whose maps are used, but do not tell the correction of their kernels: their bias
+/// The sections of the scene file whose maps are used, but give no correction of their kernels: their bias
 /// cannot be seen.
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings);
 

@@ -181,7 +181,7 @@ Flight Weighted::sample(const Medium& medium, const Ray& ray, const Interval& in
 //
 // The paper draws a distance for each part and takes the nearer one. Two Poisson processes are one, whose points are of
 // either kind with the shares of their rates: here one distance is drawn at the rate of both, the brick's largest
-// density, and one number tells whether its end is a collision of the control, a real one of the residual, or null.
+// density, and one number decides whether its end is a collision of the control, a real one of the residual, or null.
 //
 // Known failure: where a brick's least density is far below the others it is `delta-local`; and who needs the density
 // at the collision makes up for the look-up saved.

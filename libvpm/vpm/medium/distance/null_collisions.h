@@ -3,7 +3,7 @@
 // [Woodcock1965].
 //
 // Channels share one majorant. Whether a collision is real is drawn by the mean of their chances, each with its share
-// of the power that the photon carries by then, and the weights tell by how much a channel's own chance differs: the
+// of the power that the photon carries by then, and the weights are how much a channel's own chance differs: the
 // mixture of [Wilkie2014] at every tentative collision, as [Kutz2017] has it where probabilities follow the path's
 // history. The sum over channels of power times weight does not change on the way.
 //
@@ -80,7 +80,7 @@ class NullCollisionFlight {
   }
 
   /// The same in a stretch, whose density is looked up only where it is needed: in grey media a collision that its
-  /// bounds tell to be null makes no look-up, and a real one does not wait for it.
+  /// bounds show to be null makes no look-up, and a real one does not wait for it.
   bool meet(double t, const DensityStretch& stretch, double majorant) {
     const DensityBounds bounds = stretch.bounds(t);
     if (grey_ && !is_real(bounds.max / majorant)) {

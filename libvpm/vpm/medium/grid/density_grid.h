@@ -109,7 +109,7 @@ class DensityGrid {
   /// support, empty voxels included.
   float max_density() const { return max_density_; }
   double mean_density() const { return mean_density_; }
-  /// The mean over the bricks that are stored. It tells more than that over the support where a grid is far wider than
+  /// The mean over the bricks that are stored. It says more than that over the support where a grid is far wider than
   /// what it holds; where all bricks are stored it is the same.
   double mean_of_stored() const { return mean_of_stored_; }
   /// How large what it holds is, m: the diagonal of its support, or, where not all bricks are stored, that of a cube of

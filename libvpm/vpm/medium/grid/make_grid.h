@@ -9,7 +9,7 @@
 namespace vpm {
 
 /// Voxels with indices from -reach to reach along each axis, `voxel` metres apart, the middle one at the origin.
-inline GridFrame centred_frame(int reach, double voxel, Interpolation interpolation = Interpolation::trilinear) {
+inline GridFrame centered_frame(int reach, double voxel, Interpolation interpolation = Interpolation::trilinear) {
   GridFrame frame;
   frame.lo = Vec3i(-reach);
   frame.hi = Vec3i(reach);

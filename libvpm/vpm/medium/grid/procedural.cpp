@@ -112,7 +112,7 @@ float inside_cube(const Vec3& p, float margin) {
 
 /// A puff of cloud or smoke.
 struct Ball {
-  Vec3 centre;
+  Vec3 center;
   float radius;
 };
 
@@ -121,7 +121,7 @@ template <size_t N>
 float depth_in_balls(const std::array<Ball, N>& balls, const Vec3& p, float rounding) {
   float depth = -1.0f;
   for (const Ball& ball : balls) {
-    const float d = ball.radius - glm::length(p - ball.centre);
+    const float d = ball.radius - glm::length(p - ball.center);
     const float blend = std::max(0.0f, rounding - std::abs(depth - d)) / rounding;
     depth = std::max(depth, d) + 0.25f * rounding * blend * blend;
   }

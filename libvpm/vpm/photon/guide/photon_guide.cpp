@@ -63,7 +63,7 @@ void merge(Importance& all, const Importance& part) {
 }
 
 /// Follows one importon and adds its tracks. Those from the camera to what it sees, by mirrors and glass or straight,
-/// tell of no direction for photons: what a photon leaves where the camera sees it is seen from there.
+/// suggest no direction for photons: what a photon leaves where the camera sees it is seen from there.
 void trace_importon(const Scene& scene, const DistanceStrategy& strategy, Rng& rng, int max_events,
                     Importance& importance) {
   const Camera& camera = scene.camera;

@@ -1,5 +1,5 @@
-// What guides photons: importons, particles from the camera that tell what light is worth to the picture, and scouts,
-// which tell where to emit, which way to scatter, and where to follow more or fewer of them.
+// What guides photons: importons, particles from the camera that estimate what light is worth to the picture, and
+// scouts, which say where to emit, which way to scatter, and where to follow more or fewer of them.
 #pragma once
 
 #include <optional>

@@ -118,7 +118,7 @@ uint32_t NearestMap::find(const Vec3& point, uint32_t count, float max_radius, N
                           Accept&& accept) const {
   uint32_t visited = 0;
   if (count >= kMany && count < size()) {
-    // The first photons of the leaves tell the radius well enough to look at little beyond it.
+    // The radius by the first photons of the leaves is good enough to look at little beyond it.
     const auto of_leaves = static_cast<uint32_t>(count * leaves_ / size());
     neighbours.start(of_leaves, max_radius);
     visited += search(point, 1, neighbours, accept);

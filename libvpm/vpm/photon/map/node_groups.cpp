@@ -50,19 +50,19 @@ void fill_bounds(const PhotonTable& photons, size_t begin, size_t end, size_t la
   group.photons[lane] = static_cast<uint32_t>(end - begin);
 }
 
-/// The centre of a node's box, m.
-Vec3 centre_of(const NodeGroup& group, size_t lane) {
+/// The center of a node's box, m.
+Vec3 center_of(const NodeGroup& group, size_t lane) {
   return 0.5f * Vec3(group.lo[0][lane] + group.hi[0][lane], group.lo[1][lane] + group.hi[1][lane],
                      group.lo[2][lane] + group.hi[2][lane]);
 }
 
 void fill_moments(const PhotonTable& photons, size_t begin, size_t end, size_t lane, const NodeGroup& group,
                   NodeMoments& moments) {
-  const Vec3d centre = centre_of(group, lane);
+  const Vec3d center = center_of(group, lane);
   Rgbd power(0.0), second(0.0);
   glm::dmat3 first(0.0);  // a column for each channel
   for (size_t i = begin; i < end; ++i) {
-    const Vec3d offset = Vec3d(photons.position(i)) - centre;
+    const Vec3d offset = Vec3d(photons.position(i)) - center;
     const Rgbd p = photons.payload(i).power.unpack();
     power += p;
     second += p * glm::dot(offset, offset);
@@ -126,7 +126,7 @@ float NodeGroups::reach(const Vec3& point) const {
 }
 
 void MomentSums::add(const NodeGroup& nodes, const NodeMoments& moments, const uint32_t* taken, const Vec3& point) {
-  float x[kBlock], y[kBlock], z[kBlock], square[kBlock], weight[kBlock];  // from the centre to the point
+  float x[kBlock], y[kBlock], z[kBlock], square[kBlock], weight[kBlock];  // from the center to the point
   const Vec3 p = point;
   for (uint32_t i = 0; i < kBlock; ++i) {
     x[i] = p.x - 0.5f * (nodes.lo[0][i] + nodes.hi[0][i]);

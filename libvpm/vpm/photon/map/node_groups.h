@@ -3,7 +3,7 @@
 // those leaves alone that it takes a part of.
 //
 // A kernel that is linear in the squared distance d^2, as Epanechnikov's, sums to a linear function of sum P and
-// sum P d^2 over the powers P. For the photons below a node the latter follows from its moments about any centre c, the
+// sum P d^2 over the powers P. For the photons below a node the latter follows from its moments about any center c, the
 // parallel axis theorem of mechanics: sum P d^2 = sum P |x - c|^2 - 2 (p - c) . sum P (x - c) + |p - c|^2 sum P, where
 // p is the point that distances are taken from. It is exact but for rounding.
 #pragma once
@@ -30,7 +30,7 @@ struct NodeGroup {
   uint32_t photons[kBlock];            // their number; 0 where there is no node
 };
 
-/// The moments of their powers about the centres of the boxes.
+/// The moments of their powers about the centers of the boxes.
 struct NodeMoments {
   float power[3][kBlock];     // by channel: sum P, W
   float first[3][3][kBlock];  // by channel and axis: sum P (x - c), W m

@@ -12,7 +12,7 @@ namespace vpm {
 namespace {
 
 constexpr size_t kMostPieces = 9;    // in the mean over the beams
-constexpr size_t kSample = 1 << 12;  // beams that tell how dense all are, at most
+constexpr size_t kSample = 1 << 12;  // beams by which the density of all is estimated, at most
 constexpr size_t kChunk = 1 << 13;   // beams or pieces one thread takes at once
 
 /// How many pieces a beam is cut into, so that none is longer than `longest`, m.

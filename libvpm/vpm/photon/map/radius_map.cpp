@@ -39,7 +39,7 @@ namespace {
 constexpr size_t kCellChunk = 1 << 14;  // photons one thread takes at once
 constexpr size_t kParts = 8;            // of the lists, that threads sort one by one
 constexpr double kMostWide = 2.0;       // radii, of a cell that shares its list
-constexpr double kMostAlong = 1 << 20;  // cells along an axis: floats tell them apart to a quarter
+constexpr double kMostAlong = 1 << 20;  // cells along an axis: floats resolve a quarter of one
 
 /// Cells of edge `size` that cover `extent`, each at least 1.
 Vec3d cells_for(const Vec3& extent, double size) { return glm::floor(Vec3d(extent) / size) + 1.0; }

@@ -23,7 +23,7 @@ struct ConfidenceInterval {
 };
 
 /// Errors of one picture. The part that the reference's own noise is expected to add is subtracted, so they are
-/// unbiased, and may come out below 0 where the reference is too noisy to tell.
+/// unbiased, and may come out below 0 where the reference is too noisy.
 struct PictureErrors {
   double mse = 0.0;                   // (W/(m^2 sr))^2
   double relative_mse = 0.0;          // as relative_mse()

@@ -1,4 +1,4 @@
-// The ball's image by the distance of rays from its centre, tabulated.
+// The ball's image by the distance of rays from its center, tabulated.
 #include "vpm/study/compare/exact_picture.h"
 
 #include <fmt/format.h>
@@ -66,20 +66,20 @@ class BallImage {
 
 /// The ball as the camera sees it.
 struct Ball {
-  Vec3d centre;                     // m
+  Vec3d center;                     // m
   double radius;                    // m
   std::array<BallImage, 3> images;  // by channel
 
   explicit Ball(const Scene& scene)
-      : centre(scene.geometry.sphere(0)->centre),
+      : center(scene.geometry.sphere(0)->center),
         radius(scene.geometry.sphere(0)->radius),
         images(images_of(scene.media[scene.shapes[0].media.inside], radius)) {}
 
   /// The cosine at which a ray meets the ball; 0 where it passes by.
   double meeting_cosine(const Ray& ray) const {
-    const Vec3d to_centre = centre - Vec3d(ray.origin), d(ray.direction);
-    const double impact = glm::length(glm::cross(to_centre, d)) / radius;
-    return impact < 1.0 && glm::dot(to_centre, d) > 0.0 ? std::sqrt((1.0 - impact) * (1.0 + impact)) : 0.0;
+    const Vec3d to_center = center - Vec3d(ray.origin), d(ray.direction);
+    const double impact = glm::length(glm::cross(to_center, d)) / radius;
+    return impact < 1.0 && glm::dot(to_center, d) > 0.0 ? std::sqrt((1.0 - impact) * (1.0 + impact)) : 0.0;
   }
 
  private:

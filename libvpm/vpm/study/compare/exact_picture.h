@@ -9,7 +9,7 @@ namespace vpm {
 /// The picture of a ball of homogeneous fog that scatters isotropically, alone in vacuum in an environment of the same
 /// radiance everywhere, seen from outside: all orders of scattering, by exact::solve_sphere(), over each pixel's
 /// filter. W/(m^2 sr), right to 1e-4 of the environment's radiance, in pixels that the rim of the ball crosses to 2e-3.
-/// Throws InputError for any other scene, telling what differs.
+/// Throws InputError for any other scene, with what differs.
 Image exact_picture(const Scene& scene);
 
 }  // namespace vpm

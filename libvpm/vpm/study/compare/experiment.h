@@ -1,5 +1,5 @@
-// What a comparison of methods is told: which scenes, which methods, how much each may cost, how often. Its TOML file
-// becomes an Experiment; scenes/experiments/README.md describes the format.
+// What a comparison of methods is asked for: which scenes, which methods, how much each may cost, how often. Its TOML
+// file becomes an Experiment; scenes/experiments/README.md describes the format.
 #pragma once
 
 #include <cstdint>
@@ -115,7 +115,7 @@ inline double cost_in(CostUnit unit, const RunCost& cost) {
 
 /// Reads an experiment. `overrides` are `key.path=value` options that change keys of the file first, as those of
 /// load_scene(). Paths in the file are relative to its folder. The scenes it names are not read. Throws InputError for
-/// anything that is not right, telling file:line:column, or the option.
+/// anything that is not right, with file:line:column, or the option.
 ComparisonPlan load_comparison_plan(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace vpm

@@ -53,7 +53,8 @@ double weighted_mean(const std::vector<double>& weights, const std::vector<doubl
   return sum.value() / all.value();
 }
 
-/// Whether the noise of the reference hides the error: the mean is not told from 0, and may be below as some are.
+/// Whether the noise of the reference hides the error: the mean does not differ from 0 clearly, and may be below as
+/// some are.
 bool is_hidden(const Repetitions& of) {
   std::vector<double> weights(of.costs.size(), 0.0);
   bool any_below = false;

@@ -54,7 +54,7 @@ inline constexpr double kFalseVerdicts = 0.01;
 enum class BiasVerdict {
   none_seen,
   biased,
-  undetermined,  // nothing is known, and why is told
+  undetermined,  // nothing is known, for a reason that is given
   baseline       // what the others are compared with
 };
 std::string_view verdict_name(BiasVerdict verdict);

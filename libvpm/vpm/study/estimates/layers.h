@@ -18,7 +18,7 @@ struct Layers {
 
 /// Media of extinction only, from the top down, and the depth where each ends, m. Steps are one medium, a grid of
 /// nearest voxels; otherwise every part without a jump is one: homogeneous, or a grid of trilinear voxels. Grids
-/// are centred and reach `width` m to either side. Throws InputError where the nodes of a part lie
+/// are centered and reach `width` m to either side. Throws InputError where the nodes of a part lie
 /// on no common lattice.
 struct LayeredMedia {
   std::vector<Medium> media;

@@ -10,7 +10,7 @@
 namespace vpm {
 namespace {
 
-/// A boundary across all of the slab; off its centre, so that the diagonal that divides the quad is far from the light.
+/// A boundary across all of the slab; off its center, so that the diagonal that divides the quad is far from the light.
 void add_plane(Scene& scene, double depth, double width, const Interface& media) {
   const Vec3d corner(-1.1 * width, -depth, -1.4 * width);
   add_shape(scene, quad_mesh(corner, Vec3d(0.0, 0.0, 2.5 * width), Vec3d(2.5 * width, 0.0, 0.0)), Boundary{}, &media);

@@ -30,7 +30,7 @@ constexpr double kCloseMirrors = 3.0;  // thicknesses from the slab's middle
 constexpr int kRaysOfExit = 128;       // in a pass
 
 /// A ray that sees the exit, turned at random about the normal, and through a random place in the slab's middle, at
-/// most a thickness from the centre: it leaves the slab more than a thickness before the mirrors.
+/// most a thickness from the center: it leaves the slab more than a thickness before the mirrors.
 Ray towards_exit_between_mirrors(const Slab& slab, const SlabExit& exit, Rng& rng) {
   const float turn = 2.0f * kPi * rng.uniform();
   const auto mu = static_cast<float>(exit.mu), across = std::sqrt(1.0f - mu * mu);

@@ -27,7 +27,7 @@ struct SpherePaths {
   std::vector<Moments> fluence;  // W/m^2
   std::vector<Moments> image;    // W/(m^2 sr)
 };
-/// Fluence at distances from the centre, radiance along rays at impact parameters, both over the radius.
+/// Fluence at distances from the center, radiance along rays at impact parameters, both over the radius.
 SpherePaths estimate_sphere_paths(const FoggySphere& sphere, const std::vector<double>& radii,
                                   const std::vector<double>& impacts, uint64_t samples, uint64_t seed);
 

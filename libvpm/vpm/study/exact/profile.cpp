@@ -17,7 +17,7 @@ double extinction_of(const ConstantProfile& p, double) { return p.sigma_t; }
 double extinction_of(const RampProfile& p, double t) { return p.start + p.slope * t; }
 double extinction_of(const ExponentialProfile& p, double t) { return p.start * std::exp(-p.rate * t); }
 double extinction_of(const GaussianProfile& p, double t) {
-  const double x = (t - p.centre) / p.width;
+  const double x = (t - p.center) / p.width;
   return p.peak * std::exp(-0.5 * x * x);
 }
 double extinction_of(const LayeredProfile& p, double t) {
@@ -35,8 +35,8 @@ Bounded thickness_of(const ExponentialProfile& p, double t) {
   return {tau, kRounding * tau};
 }
 Bounded thickness_of(const GaussianProfile& p, double t) {
-  const double unit = p.width * std::sqrt(2.0), from = -p.centre / unit, to = (t - p.centre) / unit;
-  // On one side of the centre, the complements differ without cancelling as much. Arguments are as good as rounding.
+  const double unit = p.width * std::sqrt(2.0), from = -p.center / unit, to = (t - p.center) / unit;
+  // On one side of the center, the complements differ without cancelling as much. Arguments are as good as rounding.
   const auto size = [](double value, double x) { return std::fabs(value) + std::fabs(x) * std::exp(-x * x); };
   const auto difference = [&](double a, double b) {
     const double scale = p.peak * unit * 0.5 * std::sqrt(kPiD);

@@ -26,10 +26,10 @@ struct ExponentialProfile {
   double start;  // 1/m
   double rate;   // 1/m; negative downwards
 };
-/// sigma_t = peak exp(-(t - centre)^2 / (2 width^2)): a Gaussian blob seen along a ray.
+/// sigma_t = peak exp(-(t - center)^2 / (2 width^2)): a Gaussian blob seen along a ray.
 struct GaussianProfile {
   double peak;           // 1/m, at the ray's closest point
-  double width, centre;  // m
+  double width, center;  // m
 };
 /// sigma_t is values[i] between ends[i - 1] (0 for the first) and ends[i]; the last end is the ray's.
 struct LayeredProfile {

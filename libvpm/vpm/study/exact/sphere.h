@@ -16,7 +16,7 @@ struct SphereSolution {
 };
 
 /// `optical_radius` > 0, albedo in [0, 1]. Fluence at `radii` and image at `impacts` (distances of rays from the
-/// centre), both over the sphere's radius, in [0, 1].
+/// center), both over the sphere's radius, in [0, 1].
 SphereSolution solve_sphere(double optical_radius, double albedo, const std::vector<double>& radii = {},
                             const std::vector<double>& impacts = {});
 

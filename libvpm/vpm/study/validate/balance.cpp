@@ -78,7 +78,7 @@ Scene scene_with_everything(const TestField& field) {
   scene.lights.push_back(DirectionalLight{glm::normalize(Vec3(0.3f, -0.8f, 0.1f)), Rgb(0.1f, 0.2f, 0.3f)});
   const DiscShape disc{Vec3(0.2f, 1.9f, -0.3f), glm::normalize(Vec3(0.1f, -1.0f, 0.2f)), 0.3f};
   add_shape(scene, disc, Lambertian{Rgb(0.2f)}, nullptr, static_cast<int>(scene.lights.size()));
-  scene.lights.push_back(DiscLight{disc.centre, disc.normal, disc.radius, Rgb(1.0f, 0.7f, 0.4f)});
+  scene.lights.push_back(DiscLight{disc.center, disc.normal, disc.radius, Rgb(1.0f, 0.7f, 0.4f)});
   const TriangleMesh light = box_mesh(Vec3d(1.6, 1.7, 1.6), Vec3d(1.9, 1.9, 1.8));
   add_shape(scene, light, Lambertian{Rgb(0.4f)}, nullptr, static_cast<int>(scene.lights.size()));
   scene.lights.push_back(MeshLight{std::make_shared<EmittingMesh>(light), Rgb(0.8f)});
@@ -179,7 +179,7 @@ Check check_arrivals(const std::string& name, const Scene& scene, double reflect
   return check_mean(name, samples[0], 1.0 / (1.0 - reflectance));
 }
 
-/// The irradiance of a sphere's wall with the light at its centre, by the surface map.
+/// The irradiance of a sphere's wall with the light at its center, by the surface map.
 Check check_wall(float radius, float reflectance, const Effort& effort) {
   const Scene scene = cavity(SphereShape{Vec3(0.0f), radius}, reflectance, Vec3(0.0f));
   const auto strategy = make_distance_strategy({});

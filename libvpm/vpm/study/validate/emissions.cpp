@@ -30,9 +30,9 @@ std::vector<std::array<double, 3>> equal_cells(size_t count) {
 
 constexpr size_t kRings = 6;  // of equal probability
 
-/// Rings of the disc of `radius` about the axis through `centre` along `axis`, and sectors.
-size_t disc_cell(const Ray& ray, const Vec3& centre, const Vec3& axis, double radius) {
-  const Vec3d across = Vec3d(ray.origin - centre) - glm::dot(Vec3d(ray.origin - centre), Vec3d(axis)) * Vec3d(axis);
+/// Rings of the disc of `radius` about the axis through `center` along `axis`, and sectors.
+size_t disc_cell(const Ray& ray, const Vec3& center, const Vec3& axis, double radius) {
+  const Vec3d across = Vec3d(ray.origin - center) - glm::dot(Vec3d(ray.origin - center), Vec3d(axis)) * Vec3d(axis);
   const Vec3 direction(glm::normalize(across));
   return cell_of(glm::dot(across, across) / (radius * radius), kRings) * kSectors + sector_about(axis, direction);
 }
@@ -112,7 +112,7 @@ EmissionLaw sphere_law() {
   constexpr size_t kZones = 4;
   return {"sphere", light, 4.0 * kPiD * kPiD * light.radius * light.radius * Rgbd(kColour),
           [=](const Ray& ray) {
-            const Vec3 normal = glm::normalize(ray.origin - light.centre);
+            const Vec3 normal = glm::normalize(ray.origin - light.center);
             return cell_of(0.5 * away_from(kAxis, normal), kZones) * kRings * kSectors +
                    cosine_law_cell(normal, ray.direction);
           },
@@ -123,7 +123,7 @@ EmissionLaw disc_law() {
   const DiscLight light = test_disc();
   return {"disc", light, kPiD * kPiD * light.radius * light.radius * Rgbd(kColour),
           [=](const Ray& ray) {
-            const size_t place = disc_cell(ray, light.centre, light.normal, light.radius) / 2;  // sectors in pairs
+            const size_t place = disc_cell(ray, light.center, light.normal, light.radius) / 2;  // sectors in pairs
             return place * kRings * kSectors + cosine_law_cell(light.normal, ray.direction);
           },
           equal_cells(kRings * kSectors / 2 * kRings * kSectors)};

@@ -125,12 +125,12 @@ std::vector<Check> check_maps(const Effort& effort) {
   const HenyeyGreenstein phase{0.5f};
   std::vector<Check> checks;
   const LitBody sphere = lit_sphere("sphere", white_medium(nullptr, sigma_t, phase));
-  const Vec3 off_centre(0.5f, -0.3f, 0.4f);
-  append(checks, check_map(sphere, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
+  const Vec3 off_center(0.5f, -0.3f, 0.4f);
+  append(checks, check_map(sphere, off_center, "homogeneous", VolumeForm::density_at_query, effort));
   const LitBody glass = lit_glass("sphere behind glass", white_medium(nullptr, sigma_t, phase), 1.5f);
-  append(checks, check_map(glass, off_centre, "homogeneous", VolumeForm::density_at_query, effort));
+  append(checks, check_map(glass, off_center, "homogeneous", VolumeForm::density_at_query, effort));
   const LitBody again = lit_sphere("sphere, density at the photon", white_medium(nullptr, sigma_t, phase));
-  append(checks, check_map(again, off_centre, "homogeneous", VolumeForm::density_at_photon, effort));
+  append(checks, check_map(again, off_center, "homogeneous", VolumeForm::density_at_photon, effort));
   const LitBody room{"a room of glowing walls", glowing_room(white_medium(nullptr, sigma_t, phase))};
   append(checks, check_map(room, Vec3(0.6f, 0.0f, 0.0f), "homogeneous", VolumeForm::density_at_query, effort));
   const LitBody mesh{"a glowing mesh", glowing_mesh(white_medium(nullptr, sigma_t, phase))};
@@ -248,9 +248,9 @@ std::vector<Check> check_borders(const Effort& effort) {
                                  {"photon beams", "photon-beams"},
                                  {"photon beams around points", "beams-points", 96}};
   const Medium white = white_medium(nullptr, Rgb(1.5f), HenyeyGreenstein{0.5f});
-  const Vec3 centre(0.3f, -0.2f, 0.5f);  // of the sphere
+  const Vec3 center(0.3f, -0.2f, 0.5f);  // of the sphere
   std::vector<Check> checks =
-      check_border_of_medium(lit_sphere("the border of a sphere", white), centre + Vec3(0.0f, 0.9999f, 0.0f), effort);
+      check_border_of_medium(lit_sphere("the border of a sphere", white), center + Vec3(0.0f, 0.9999f, 0.0f), effort);
   append(checks, check_border_of_medium(lit_box("a face of a box", white), field_point({6.999, 0.1, 0.3}), effort));
   append(checks,
          check_border_of_medium(lit_box("near a corner of a box", white), field_point({6.4, 6.2, -6.5}), effort));

@@ -46,7 +46,7 @@ Polygon corners(const DiscLight& light, const Vec3& point) {
   const Vec3d t = glm::cross(normal, s);
   Polygon all;
   for (int i = 0; i < kEdges; ++i)
-    all.push_back(Vec3d(light.centre) + radius * (std::cos(i * turn) * s + std::sin(i * turn) * t));
+    all.push_back(Vec3d(light.center) + radius * (std::cos(i * turn) * s + std::sin(i * turn) * t));
   return seen_from(point, std::move(all));
 }
 
@@ -109,7 +109,7 @@ Received from_mesh() {
 Received from_sphere() {
   const SphereLight light{{0.2f, 1.3f, 0.1f}, 0.7f, Rgb(1.0f)};
   const Vec3 point(0.7f, -0.1f, -0.2f);
-  const Vec3d towards = Vec3d(light.centre) - Vec3d(point);
+  const Vec3d towards = Vec3d(light.center) - Vec3d(point);
   const double square = glm::dot(towards, towards), sine_square = double{light.radius} * light.radius / square;
   const double angle = 2.0 * kPiD * (1.0 - std::sqrt(1.0 - sine_square));
   return {"sphere", light, point, angle, kPiD * sine_square * towards.y / std::sqrt(square), angle};

@@ -144,7 +144,7 @@ DirectionGuide lopsided() {
 /// What an event makes of a photon, W.
 struct Outcome {
   Rgb power{0.0f};     // that goes on
-  Rgb absorbed{0.0f};  // as the event tells it
+  Rgb absorbed{0.0f};  // by the event
   Vec3 direction{0.0f};
 };
 

@@ -32,7 +32,7 @@ std::vector<Photon> even_photons(uint64_t count, bool flat, Rng& rng) {
   return photons;
 }
 
-/// Fluence over sigma_t = 1/m in the volume, irradiance on the plane, both at a point off the centre.
+/// Fluence over sigma_t = 1/m in the volume, irradiance on the plane, both at a point off the center.
 double estimate(bool flat, const GatherSettings& settings, Rng& rng) {
   const Vec3 point(0.1f, -0.05f, 0.0f);
   const PhotonMap map = make_photon_map(even_photons(kPhotonsOfMaps, flat, rng), settings, kPhotonsOfMaps);

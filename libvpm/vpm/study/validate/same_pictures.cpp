@@ -54,7 +54,7 @@ Moments radiance(const Scene& scene, RenderSettings settings, size_t passes, con
   return all;
 }
 
-/// A ball of glass over a floor, seen with a caustic so blurred that few photons tell its power.
+/// A ball of glass over a floor, seen with a caustic so blurred that few photons are enough for its power.
 Check check_caustics(const Effort& effort) {
   const Scene scene = lit_corner(1.5f);
   RenderSettings settings;
@@ -69,7 +69,7 @@ Check check_caustics(const Effort& effort) {
                     by_all);
 }
 
-/// Final gathering in a hollow sphere with a light of 1 W at its centre: irradiance is even, so that points where it
+/// Final gathering in a hollow sphere with a light of 1 W at its center: irradiance is even, so that points where it
 /// was computed beforehand blur nothing. The map where rays end misses kCapLoss of the light that was reflected before.
 std::vector<Check> check_final_gathering(const Effort& effort) {
   constexpr float kRadius = 1.5f, kReflectance = 0.5f, kRatio = 0.15f;

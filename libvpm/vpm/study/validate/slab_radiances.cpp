@@ -102,7 +102,7 @@ Medium hardly_scattering(bool voxels) {
   Medium medium{.name = "", .sigma_s = Rgb(0.0f), .sigma_t = Rgb(0.0f), .phase = Isotropic{}, .grid = nullptr};
   medium.sigma_t = Rgb(static_cast<float>(kExtinction));
   medium.sigma_s = medium.sigma_t * static_cast<float>(kAlbedo);
-  if (voxels) medium.grid = make_grid(centred_frame(24, 0.2), [](int, int, int) { return 1.0; });
+  if (voxels) medium.grid = make_grid(centered_frame(24, 0.2), [](int, int, int) { return 1.0; });
   return medium;
 }
 

@@ -23,7 +23,7 @@ float glossy_choice(const Phong& m) {
 }  // namespace
 
 /// Russian roulette between the lobes [Lafortune1994; Jensen2001, ch. 5]. The density is that of both lobes
-/// together, so the weight does not tell which one was chosen.
+/// together, so the weight does not depend on which one was chosen.
 Scatter sample(const Phong& m, const Vec3& normal, const Vec3& travel, float u_choice, const Vec2& u) {
   const Incidence in(normal, travel);
   Vec3 direction;

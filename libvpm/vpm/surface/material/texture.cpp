@@ -17,10 +17,10 @@ struct Neighbours {
   float weight;
 };
 Neighbours neighbours_of(float place, int count) {
-  const float from_first_centre = place - 0.5f;
-  const float below = std::floor(from_first_centre);
+  const float from_first_center = place - 0.5f;
+  const float below = std::floor(from_first_center);
   const int first = static_cast<int>(below);  // from -1 to count - 1
-  return {first < 0 ? count - 1 : first, first + 1 < count ? first + 1 : 0, from_first_centre - below};
+  return {first < 0 ? count - 1 : first, first + 1 < count ? first + 1 : 0, from_first_center - below};
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 
 namespace vpm {
 
-/// How colours between the centres of texels are found.
+/// How colours between the centers of texels are found.
 enum class TextureFilter { bilinear, nearest };
 
 /// A picture over the unit square, repeated in both directions: u runs along its rows from the left, v along its
-/// columns from the bottom. Texels stand for the centres of their cells.
+/// columns from the bottom. Texels stand for the centers of their cells.
 class Texture {
  public:
   /// `image` has at least one pixel.

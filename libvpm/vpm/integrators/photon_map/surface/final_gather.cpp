@@ -157,7 +157,7 @@ KernelEstimate FinalGather::at_end(const SurfaceView& view, EyeWork& work) const
   return ends_.gather(view, work);
 }
 
-/// Is a ray shorter than the radius of what the map tells at its end? At borders the k nearest of a region may reach
+/// Is a ray shorter than the radius of the gather at its end? At borders the k nearest of a region may reach
 /// farther than those of all photons: the largest radius stands for theirs.
 bool FinalGather::is_too_short(float length, const SurfaceView& view, EyeWork& work) const {
   const CountedMap map{ends_.map(), work.gather()};

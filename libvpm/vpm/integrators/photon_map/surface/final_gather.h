@@ -2,9 +2,9 @@
 // of a caustic map, and the rest, which rays gather.
 //
 // The light that a non-specular surface scattered last is left to rays over the hemisphere [Jensen2001, ch. 9]. Each
-// ray ends at the next non-specular surface, with the light that all photons there tell of. The eye then sees the blur
-// of the map averaged over many places. Light that mirrors, glass and media led to the surface is too sharp for few
-// rays; it comes from the caustic map.
+// ray ends at the next non-specular surface, with the light estimated from all photons there. The eye then sees the
+// blur of the map averaged over many places. Light that mirrors, glass and media led to the surface is too sharp for
+// few rays; it comes from the caustic map.
 //
 // Where a ray is shorter than the radius that the map has at its end, the blur would show as bright or dark edges. The
 // path then goes on as a path tracer's does, with direct light and the caustic map at each non-specular surface, until

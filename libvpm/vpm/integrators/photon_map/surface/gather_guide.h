@@ -3,7 +3,7 @@
 // The nearest photons make a histogram over cells of both hemispheres. Each photon adds what the surface scatters of
 // its power towards the eye to the cell that it came from. A fraction of the rays (`share_`) is drawn from the
 // histogram, the others as the material scatters. All are weighted by the mixture density of both (the balance
-// heuristic of one sample [Veach1997, sec. 9.2]). This is right whatever the photons tell. No ray weighs more than
+// heuristic of one sample [Veach1997, sec. 9.2]). This is right whatever the photons say. No ray weighs more than
 // 1/(1 - share_) times what it would weigh by the material alone.
 //
 // The photons are those that a non-specular surface scattered last, from a map of their own, because rays gather the
@@ -20,7 +20,7 @@
 namespace vpm {
 
 /// The settings of gathers from that map, except the largest radius. That one depends on the scene, not on other maps:
-/// what the photons tell need not be sharp.
+/// what the photons say need not be sharp.
 inline constexpr GatherSettings kGuidingPhotons{.mode = GatherMode::nearest, .count = 100};
 
 class GatherGuide {

@@ -87,7 +87,7 @@ class BeamMaps {
     Rng rng(settings_.seed, rng_stream(RngUse::flight, static_cast<uint64_t>(pass.number)), 0);
     for (const std::vector<PhotonBeam>& flights : flights_.beams) statistics.flights += flights.size();
     const float kept = thin(flights_.beams, settings_.flights, rng);
-    statistics.last_volume_radius = 0.0f;  // that of beams is told, not that of collisions beside them
+    statistics.last_volume_radius = 0.0f;  // the report has that of beams, not that of collisions
     for (size_t m = 0; m < scene_.media.size(); ++m) {
       const float first = first_radius(settings_.maps.gather, scene_, scene_.media[m]);
       const GatherSettings of_pass = gather_in_pass(settings_.maps.gather, first, dimension_, pass);

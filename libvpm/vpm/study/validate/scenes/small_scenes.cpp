@@ -68,7 +68,7 @@ Scene foggy_light() {
   // No point light: the square of what shadow rays from about one bring has no mean.
   for (const SphereLight& light : {SphereLight{Vec3(0.0f, 1.0f, 0.0f), 0.4f, Rgb(1.0f, 0.9f, 0.8f)},
                                    SphereLight{Vec3(2.0f, 0.5f, 0.5f), 0.3f, Rgb(1.0f, 0.7f, 1.7f)}}) {
-    add_shape(scene, SphereShape{light.centre, light.radius}, Lambertian{Rgb(0.0f)}, nullptr,
+    add_shape(scene, SphereShape{light.center, light.radius}, Lambertian{Rgb(0.0f)}, nullptr,
               static_cast<int>(scene.lights.size()));
     scene.lights.push_back(light);
   }
