@@ -1,6 +1,6 @@
-// The tour of README.md, line by line as a newcomer types it: each line succeeds, and none writes over what another has
-// made. The scenes that the lines name are the project's own, made small; the lines are as they are, but for their
-// times and errors.
+// The lines of README.md and of tools/README.md, as a newcomer types them: each succeeds, and none writes over what
+// another has made. The scenes that the lines name are the project's own, made small; the lines are as they are, but
+// for their times and errors.
 #include <map>
 #include <regex>
 #include <sstream>
@@ -25,9 +25,9 @@ std::string contents(const fs::path& path) {
 }
 
 /// The commands of the section's blocks of shell, with their comments.
-std::vector<std::string> tour() {
-  const std::string page = contents(fs::path(VPM_SOURCE_DIR) / "README.md");
-  const size_t begin = page.find("## A short tour"), end = page.find("\n## ", begin + 1);
+std::vector<std::string> lines_of(const char* file, const char* section) {
+  const std::string page = contents(fs::path(VPM_SOURCE_DIR) / file);
+  const size_t begin = page.find(section), end = page.find("\n## ", begin + 1);
   EXPECT_LT(end, page.size());
   std::istringstream text(page.substr(begin, end - begin));
   std::vector<std::string> lines;
@@ -100,10 +100,19 @@ class SlowVpmTour : public VpmBinary {
   }
 };
 
+TEST_F(SlowVpmTour, FirstStepsRun) {
+  const std::vector<std::string> lines = lines_of("README.md", "## First steps");
+  EXPECT_EQ(lines.size(), 5u);
+  for (const std::string& line : lines) {
+    const testing::ScopedTrace trace(__FILE__, __LINE__, line);
+    run(line);
+  }
+}
+
 TEST_F(SlowVpmTour, RunsLineByLine) {
   std::map<std::string, std::string> left_out = kLeftOut;
   size_t count = 0;
-  for (const std::string& line : tour()) {
+  for (const std::string& line : lines_of("tools/README.md", "## A short tour")) {
     const testing::ScopedTrace trace(__FILE__, __LINE__, line);
     const auto why = std::find_if(left_out.begin(), left_out.end(),
                                   [&](const auto& entry) { return line.starts_with(entry.first); });
