@@ -50,11 +50,10 @@ std::optional<ErrorLog> make_error_log(const RenderOptions& options, const Outpu
   return ErrorLog(options.reference, outputs.errors, film, camera);
 }
 
-/// Tells what a user should know before the first pass.
+/// Prints what a user should know before the first pass.
 void look_ahead(const RenderOptions& options, RenderJob& job, const RenderResult& begun) {
   if (begun.film.passes() == 0) {
     foresee(job, *clock_of_process());
-    look_for_kernel_light(job, *clock_of_process());
   }
   if (options.quiet) return;
   print_notes(job);

@@ -9,7 +9,7 @@
 #include "vpm/integrators/photon_map/plan.h"
 #include "vpm/integrators/photon_map/volume/estimators.h"
 #include "vpm/integrators/render_scene.h"
-#include "vpm/tune/lost_light.h"
+#include "vpm/job/lost_light.h"
 
 namespace vpm {
 namespace {

@@ -8,6 +8,7 @@
 #include "vpm/base/error.h"
 #include "vpm/integrators/describe.h"
 #include "vpm/integrators/render_scene.h"
+#include "vpm/job/lost_light.h"
 #include "vpm/render/pass_time.h"
 #include "vpm/render/render.h"
 #include "vpm/tune/automatic.h"
@@ -88,8 +89,7 @@ RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
           .automatic = {.left_out = {"integrator.caustics.radius", "integrator.surface.radius",
                                      "integrator.volume.radius"}},
           .light_names = std::move(assembled.light_names),
-          .notes = std::move(assembled.notes),
-          .kernel_light = {}};
+          .notes = std::move(assembled.notes)};
 }
 
 void choose(RenderJob& job, const Clock& clock) {
@@ -135,6 +135,8 @@ void check_not_read(const std::filesystem::path& path, const RenderJob& job) {
 void foresee(RenderJob& job, const Clock& clock) {
   validate(job.settings, facts_of(job.scene));
   check_memory(job.scene, job.settings, PassOf::picture, physical_memory());
+  if (std::string text = text_of_kernel_light(job.scene, job.settings, job.light_names); !text.empty())
+    job.notes.push_back(std::move(text));
   const double left = time_left(job, clock), looking = std::min(kLookShare * left, 1.0);
   const auto within = [&](double seconds, const std::function<void()>& look) {
     return clock.finish_by(clock.seconds() + seconds, look);
@@ -160,13 +162,6 @@ void foresee(RenderJob& job, const Clock& clock) {
   job.what_fits = what_fits_text(photons_that_fit(cost, job.settings, fits), radius, cost);
   job.notes.push_back(fmt::format("one pass takes about {:.2g} s, longer than the {:.2g} s that are left: {}",
                                   job.foreseen_pass, fits, job.what_fits));
-}
-
-void look_for_kernel_light(RenderJob& job, const Clock& clock) {
-  const double end = clock.seconds() + kLookShare * time_left(job, clock);
-  if (!clock.finish_by(end, [&] { job.kernel_light = kernel_light_of(job.scene, job.settings); }))
-    job.notes.emplace_back("the time does not allow to look for light that is found by kernels alone");
-  if (job.kernel_light) job.notes.push_back(text_of(*job.kernel_light, job.light_names));
 }
 
 void foresee_light_map(const RenderJob& job) {

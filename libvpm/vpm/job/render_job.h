@@ -18,7 +18,6 @@
 #include "vpm/integrators/settings.h"
 #include "vpm/scene/assemble.h"
 #include "vpm/tune/choice.h"
-#include "vpm/tune/kernel_light.h"
 
 namespace vpm {
 
@@ -39,7 +38,6 @@ struct RenderJob {
                                          // scenes made in code what their maker says
   std::vector<std::pair<std::string, std::string>> contents{};  // of the scene file, with its options: what is no
                                                                 // setting, by name; and hashes of those files
-  std::optional<KernelLight> kernel_light;                      // once it has been looked for
   double foreseen_pass = 0.0;                                   // s that a pass takes, once foresee() has estimated it
   std::string what_fits{};  // would make a pass fit into the time asked for, where none is foreseen to; or ""
   uint64_t clamped_density_values = 0;  // negative densities set to 0 on the scene's request, over all grids
@@ -70,9 +68,5 @@ void check_not_read(const std::filesystem::path& path, const RenderJob& job);
 void foresee(RenderJob& job, const Clock& clock = WallClock());
 /// The same of a light map's memory alone: how long its passes take is not estimated.
 void foresee_light_map(const RenderJob& job);
-
-/// Measures light that techniques combined find by kernels alone, if there is any, and notes it in the job; or that
-/// there was no time for that.
-void look_for_kernel_light(RenderJob& job, const Clock& clock = WallClock());
 
 }  // namespace vpm

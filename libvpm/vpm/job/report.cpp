@@ -132,15 +132,6 @@ Json json_of(const Estimated& estimated) {
   return {{"value", estimated.value}, {"standard_error", estimated.standard_error}};
 }
 
-/// What techniques find by kernels alone; null where nothing is, or was looked for.
-Json kernel_light(const RenderJob& job) {
-  if (!job.kernel_light) return nullptr;
-  Json found = json_of(job.kernel_light->share);
-  found["quantity"] = "share of the light of the picture";
-  found["lights"] = job.kernel_light->lights;
-  return found;
-}
-
 /// How far the image is estimated to be from the truth.
 Json errors(const RenderJob& job, const RenderResult& result) {
   const std::optional<StatedError> stated = stated_error_of(result);
@@ -261,7 +252,6 @@ std::string render_report(const RenderJob& job, const std::string& image, const 
   report["warnings"] = warnings_of(job, result);
   report["pass_ranges"] = pass_ranges(result.film);
   report["error"] = errors(job, result);
-  report["light_of_kernels_alone"] = kernel_light(job);
   report["techniques"] = techniques(job, result);
   report["eye"] = counted(result.statistics)["eye"];
   report["radii_of_pixels"] = disc_radii(job, result.discs);

@@ -85,7 +85,6 @@ std::shared_ptr<Passes> begin(const std::shared_ptr<SceneJob>& scene, std::optio
       } else {
         render_as_told(job, told_render(begun->together->ranks()));
       }
-      look_for_kernel_light(job, clock);
     });
   });
   if (raised) throw *std::move(raised);

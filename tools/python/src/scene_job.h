@@ -23,7 +23,6 @@ struct JobState {
   AutomaticSettings automatic;
   std::vector<Choice> choices;
   std::vector<std::string> notes;
-  std::optional<KernelLight> kernel_light;
   double foreseen_pass = 0.0;
   std::string what_fits;
 
@@ -32,7 +31,6 @@ struct JobState {
         automatic(job.automatic),
         choices(job.choices),
         notes(job.notes),
-        kernel_light(job.kernel_light),
         foreseen_pass(job.foreseen_pass),
         what_fits(job.what_fits) {}
 
@@ -41,7 +39,6 @@ struct JobState {
     std::swap(automatic, job.automatic);
     std::swap(choices, job.choices);
     std::swap(notes, job.notes);
-    std::swap(kernel_light, job.kernel_light);
     std::swap(foreseen_pass, job.foreseen_pass);
     std::swap(what_fits, job.what_fits);
   }

@@ -63,20 +63,6 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
   return counts;
 }
 
-/// The same where only light is sought that no technique without a kernel finds.
-TechniqueCounts counts_of_kernels(const Scene& scene, const RenderSettings& settings, const MergeKernels& kernels) {
-  const TechniqueSet& techniques = settings.combined.techniques;
-  RenderSettings merging = settings;
-  for (const Technique technique : {Technique::connections, Technique::light_tracing})
-    merging.combined.techniques.set(technique, false);
-  TechniqueCounts counts = counts_of_pass(scene, merging, kernels);
-  counts.alone = {.sought = true,
-                  .connects_deep = counts_of_pass(scene, settings, kernels).deep,
-                  .traces_light = techniques.has(Technique::light_tracing)};
-  counts.deep = false;
-  return counts;
-}
-
 RenderSettings with_shares_of(RenderSettings settings, uint64_t light_paths) {
   if (light_paths > 0) settings.photons_emitted = light_paths;
   return settings;
@@ -106,16 +92,14 @@ void count_by_few(const LightTracing& tracing, const RenderSettings& settings, i
 
 }  // namespace
 
-CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, SoughtLight sought,
-                           uint64_t paths_of_shares)
+CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares)
     : scene_(scene),
       paths_(settings.photons_emitted),
       max_events_(settings.max_events),
       strategy_(make_distance_strategy(settings.distance, {.pass = static_cast<uint64_t>(pass)})),
       transmittance_(make_transmittance_estimator({})),
       kernels_(kernels_of_pass(scene, settings, pass)),
-      counts_((sought == SoughtLight::all ? counts_of_pass : counts_of_kernels)(
-          scene, with_shares_of(settings, paths_of_shares), kernels_)) {
+      counts_(counts_of_pass(scene, with_shares_of(settings, paths_of_shares), kernels_)) {
   const PhotonNumbers numbers(settings.photon_sequence, settings.seed, static_cast<uint64_t>(pass));
   const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, kConnectable};
   const Stopwatch clock;

@@ -11,10 +11,6 @@
 
 namespace vpm {
 
-/// Which light a pass of the combined estimator looks for: all, or that which techniques find by kernels alone, where
-/// merges reach it from the first vertex of an eye sub-path that is not specular.
-enum class SoughtLight { all, by_kernels_alone };
-
 /// Pass number `pass`, from 0, with its light sub-paths traced and sorted: RenderSettings::photons_emitted of them.
 /// Immutable while rays run; the scene must live as long.
 class CombinedPass {
@@ -22,8 +18,7 @@ class CombinedPass {
   /// Shares are those of a pass with
   /// `paths_of_shares` light sub-paths, if that is not 0: a part of a pass then finds what the whole does, with more
   /// noise.
-  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, SoughtLight sought = SoughtLight::all,
-               uint64_t paths_of_shares = 0);
+  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares = 0);
 
   /// combined_radiance() along a ray of the camera, or along several.
   KernelEstimate radiance(const Ray& ray, EyeWork& work) const;

@@ -27,7 +27,6 @@ void EyeSubPath::see_emitter(const PathVertex& vertex, const Leg& leg) {
 }
 
 void EyeSubPath::run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted) {
-  if (c_.counts.alone.sought) return;
   const Rgb seen = at_.state.throughput * emitted;
   if (at_.only_specular) return add(Technique::connections, seen, 1.0);  // no other technique can find it
   if (!c_.counts.light) return;

@@ -55,7 +55,7 @@ bool EyeSubPath::Along::pass(const Stretch& stretch) {
   const Interval interval{0.0f, stretch.length};
   DensityIntegralsAlong& integrals = path.work_.scratch.integrals;
   count(path.work_.counters.walk.lookups, integrals.walk(&around, ray, interval));
-  if (around.scatters() && path.at_.asks > 0.0f && !path.left_to_light_tracing()) {
+  if (around.scatters() && path.at_.asks > 0.0f) {
     through_scattering = true;
     path.merge_along_ray(*this, interval);
   }
@@ -138,7 +138,7 @@ bool EyeSubPath::visit(const Arrival& at) {
     at_.asks = 1.0f;
     sample_light(at);
     connect(at);
-    if (!left_to_light_tracing()) at.vertex.on_surface ? merge_surface(at) : merge_points_3d(at);
+    at.vertex.on_surface ? merge_surface(at) : merge_points_3d(at);
     if (!c_.counts.deep && !c_.counts.run_into) return false;
   }
   if (!go_on(at)) return false;

@@ -65,8 +65,6 @@ class EyeSubPath {
   /// Goes on to the weaker side of glass and leaves the stronger one for later.
   void follow_both_sides(const Arrival& at, const BothSides& sides);
   Branch side(const Arrival& at, const Scatter& scatter, float fraction) const;
-  /// Would light tracing find what comes straight to the camera along the ray, if only the rest is sought?
-  bool left_to_light_tracing() const { return c_.counts.alone.traces_light && at_.from.camera; }
   /// The throughput of what techniques find along the ray.
   Rgb asked() const { return at_.state.throughput * at_.asks; }
 

@@ -68,7 +68,7 @@ PassMaker passes_of_combined(const Scene& scene, const RenderSettings& settings)
 }
 
 RaysOfPass rays_of_combined(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares) {
-  const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, SoughtLight::all, paths_of_shares);
+  const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, paths_of_shares);
   RaysOfPass rays{[ready](std::span<EyeRay> of) { ready->radiance(of); },
                   Image(scene.camera.width, scene.camera.height), ready->statistics()};
   ready->add_light_tracing(rays.light_tracing);

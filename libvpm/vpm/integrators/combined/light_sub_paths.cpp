@@ -38,12 +38,6 @@ class LightSubPath {
     lose(state_.throughput, out_.ledger.cut);
   }
 
-  /// Is what the flight brings to be kept?
-  bool is_sought() const {
-    const KernelsAlone& alone = c_.counts.alone;
-    return !alone.sought || (unhittable_ && from_smooth_ && !(alone.connects_deep && connected_));
-  }
-
   /// Enters where power has gone, W.
   void lose(const Rgb& power, Rgbd& where) {
     where += Rgbd(power);
@@ -56,7 +50,6 @@ class LightSubPath {
     const Emission emission = vpm::emit(light, c_.scene.bounds, rng_);
     state_ = {emission.ray, medium_of_ray(c_.scene, c_.scene.light_medium[picked.number], emission.ray),
               emission.power / picked.probability};
-    unhittable_ = !can_be_hit(light);
     const EmissionDensity density = emission_density(light, c_.scene.bounds, emission.normal, emission.ray.direction);
     from_ = depart_from_light(c_.counts, light, picked.probability, density, emission.ray, emission.normal);
     ++out_.ledger.emitted_count;
@@ -71,10 +64,8 @@ class LightSubPath {
     Rgb passed(1.0f);
     for (const Track& track : tracks_) {
       const Medium& medium = c_.scene.media[track.medium];
-      if (is_sought()) {
-        if (c_.counts.short_beams > 0.0 && medium.scatters() && track.length > 0.0f) keep(track, passed);
-        keep_thin_photons(track, medium, passed);
-      }
+      if (c_.counts.short_beams > 0.0 && medium.scatters() && track.length > 0.0f) keep(track, passed);
+      keep_thin_photons(track, medium, passed);
       passed *= transmittance(medium, integral_along(medium, track, out_.ledger.walk));
     }
     if (!is_finite(state_.throughput)) {
@@ -144,11 +135,9 @@ class LightSubPath {
     const PathVertex& vertex = at.vertex;
     if (!vertex.specular && (vertex.on_surface || c_.scene.media[vertex.medium].scatters())) {
       if (connectable_) out_.vertices.push_back({at, state_.throughput});
-      if (is_sought()) vertex.on_surface ? keep_on_surface(at) : keep_collided(at);
+      vertex.on_surface ? keep_on_surface(at) : keep_collided(at);
       if (c_.counts.splats > 0.0) splat(c_, at, state_.throughput, rng_, out_);
     }
-    connected_ |= !vertex.specular && !from_smooth_;
-    from_smooth_ = vertex.specular;
     const Rgb before = state_.throughput;
     Rgbd& absorbed = vertex.on_surface ? out_.ledger.absorbed_on_surfaces : out_.ledger.absorbed_in_media;
     const bool goes_on = scatter(at);
@@ -187,10 +176,6 @@ class LightSubPath {
   PathState state_;
   Departure from_;
   Rgbd balance_{0.0};  // gone minus emitted, W
-  // For KernelsAlone:
-  bool unhittable_ = false;   // can no ray run into the light?
-  bool from_smooth_ = false;  // does the flight come from a mirror or glass?
-  bool connected_ = false;    // could two vertices behind it be connected, or the light be sampled?
 };
 
 }  // namespace

@@ -31,15 +31,6 @@
 
 namespace vpm {
 
-/// Of a pass that looks for the light alone which no technique without a kernel finds: that of lights which no ray
-/// hits, behind mirrors or glass from wherever a sub-path could be connected.
-struct KernelsAlone {
-  bool sought = false;
-  // What is done in the other passes:
-  bool connects_deep = false;  // TechniqueCounts::deep
-  bool traces_light = false;   // are light sub-paths connected to the camera?
-};
-
 /// What each technique is worth in one pass: how many samples it takes for each light sub-path.
 struct TechniqueCounts {
   double connections = 0.0;  // of a vertex of a light sub-path, for each vertex of an eye sub-path; 0: none
@@ -58,7 +49,6 @@ struct TechniqueCounts {
   bool deep = true;
   float density_floor = 0.0f;  // where a grid is thinner photons are also stored along flights, see ThinParts
   Heuristic heuristic = Heuristic::balance;
-  KernelsAlone alone;
 
   /// Are these merges made at a vertex from the eye, which is the first that is not specular, or not?
   bool merges_surfaces(bool first) const { return surfaces > 0.0 && (first || deep); }

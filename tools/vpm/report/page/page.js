@@ -126,8 +126,7 @@ function countsOf(json, name) {
 
 function fillCounts(section) {
   for (const name
-           of ['photons', 'eye', 'boundaries', 'memory', 'times', 'energy', 'error', 'light_of_kernels_alone',
-               'radii_of_pixels']) {
+           of ['photons', 'eye', 'boundaries', 'memory', 'times', 'energy', 'error', 'radii_of_pixels']) {
     const rows = countsOf(report[name], name);
     if (rows.length === 0) continue;
     section.append(element(

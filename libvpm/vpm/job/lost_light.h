@@ -1,4 +1,5 @@
-// Light that paths from the eye do not find: what lights without extent send by way of mirrors or glass.
+// Light that integrators do not find, or find by kernels alone: what lights without extent send by way of mirrors or
+// glass.
 #pragma once
 
 #include <string>
@@ -22,5 +23,10 @@ std::string text_of_lights(const std::vector<size_t>& lights, const std::vector<
 /// shadow ray goes that way, and no path ends at such a light. "" where other integrators or other scenes are rendered.
 std::string text_of_lost_light(const Scene& scene, const RenderSettings& settings,
                                const std::vector<std::string>& names);
+
+/// What techniques combined may find by kernels alone, in a sentence: such light where mirrors or glass stand at every
+/// second place of its path, so that no two vertices in a row can be connected. "" where there is none.
+std::string text_of_kernel_light(const Scene& scene, const RenderSettings& settings,
+                                 const std::vector<std::string>& names);
 
 }  // namespace vpm

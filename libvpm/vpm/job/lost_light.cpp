@@ -1,11 +1,12 @@
 // Lost light follows from what the scene has: nothing is traced.
-#include "vpm/tune/lost_light.h"
+#include "vpm/job/lost_light.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/light/emission_density.h"
 #include "vpm/scene/scene_facts.h"
 
@@ -42,6 +43,20 @@ std::string text_of_lost_light(const Scene& scene, const RenderSettings& setting
       "paths do not find what {} may send by way of mirrors or glass, as no ray hits what has no extent: where there "
       "is "
       "such light, the picture lacks it; another integrator finds it, and paths do once the light has an extent",
+      text_of_lights(lights, names));
+}
+
+std::string text_of_kernel_light(const Scene& scene, const RenderSettings& settings,
+                                 const std::vector<std::string>& names) {
+  const std::vector<size_t> lights = unhittable_lights(scene);
+  const TechniqueSet& techniques = settings.combined.techniques;
+  if (settings.integrator != Integrator::combined || !techniques.has(Technique::connections) || !merges(techniques) ||
+      lights.empty() || !has_specular_surfaces(scene))
+    return "";
+  return fmt::format(
+      "what {} may send by way of mirrors or glass to what is seen over others is found by kernels alone, and has "
+      "their "
+      "bias with nothing to check it by: no ray hits what has no extent",
       text_of_lights(lights, names));
 }
 
