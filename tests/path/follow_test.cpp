@@ -136,7 +136,7 @@ Track track_by_hand(const Scene& scene, const DistanceStrategy& strategy, bool f
     track.emplace_back(state.ray.origin, state.throughput);
     if (event.kind == EventKind::escape) return track;
     if (event.kind == EventKind::collision) {
-      if (!scatter_in_medium(scene.media[state.medium], state, rng)) return track;
+      if (!scatter_in_medium(scene.media[state.medium].properties(state.ray.origin), state, rng)) return track;
       continue;
     }
     Scatter scatter;

@@ -119,7 +119,7 @@ TEST(GuidedScatter, MakesNoPhotonMuchHeavier) {
   for (uint64_t i = 0; i < 100'000; ++i) {
     Rng rng(1, rng_stream(RngUse::test, 50), i);
     PathState state{{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, 0, Rgb(1.0f)};
-    ASSERT_TRUE(scatter_in_medium(guide, fog, state, rng));
+    ASSERT_TRUE(scatter_in_medium(guide, fog.properties(state.ray.origin), state, rng));
     EXPECT_LE(state.throughput.g, 1.12f);
     powers.add(state.throughput.g);
   }

@@ -37,6 +37,19 @@ class DensityAlong {
   DensityGrid::LatticeRay ray_{};
 };
 
+/// What a medium does to light at a place, at density 1.
+struct MediumProperties {
+  Rgb sigma_s{0.0f}, sigma_t{0.0f};  // 1/m; see Medium
+  const Phase& phase;
+
+  Rgb sigma_a() const { return sigma_t - sigma_s; }
+  /// sigma_s / sigma_t per channel; 0 where sigma_t is 0.
+  Rgb albedo() const {
+    return {sigma_t.r > 0 ? sigma_s.r / sigma_t.r : 0.0f, sigma_t.g > 0 ? sigma_s.g / sigma_t.g : 0.0f,
+            sigma_t.b > 0 ? sigma_s.b / sigma_t.b : 0.0f};
+  }
+};
+
 struct Medium {
   std::string name;
   Rgb sigma_s{0.0f};  // scattering coefficient at density 1, 1/m
@@ -48,7 +61,7 @@ struct Medium {
   bool scatters() const { return sigma_s != Rgb(0.0f); }
   bool homogeneous() const { return grid == nullptr; }
   float density(const Vec3& p) const { return grid ? grid->density(p) : 1.0f; }
-  DensityAlong density_along(const Ray& ray) const { return {grid.get(), ray}; }
+  [[gnu::always_inline]] DensityAlong density_along(const Ray& ray) const { return {grid.get(), ray}; }
   /// The mean density over the grid's support, empty voxels included.
   double mean_density() const { return grid ? grid->mean_density() : 1.0; }
   /// The same where the grid holds anything.
@@ -60,11 +73,10 @@ struct Medium {
   float voxel_size() const { return grid ? grid->voxel_size() : kInfinity; }
   /// The part of the interval in which the density may differ from zero.
   Interval clip(const Ray& ray, const Interval& interval) const { return grid ? grid->clip(ray, interval) : interval; }
-  /// sigma_s / sigma_t per channel; 0 where sigma_t is 0.
-  Rgb albedo() const {
-    return {sigma_t.r > 0 ? sigma_s.r / sigma_t.r : 0.0f, sigma_t.g > 0 ? sigma_s.g / sigma_t.g : 0.0f,
-            sigma_t.b > 0 ? sigma_s.b / sigma_t.b : 0.0f};
-  }
+  /// Those at a place of the world: what is asked at collisions. Grids hold densities alone, so that they are the same
+  /// everywhere.
+  MediumProperties properties(const Vec3& /*place*/) const { return {sigma_s, sigma_t, phase}; }
+  Rgb albedo() const { return MediumProperties{sigma_s, sigma_t, phase}.albedo(); }
   bool grey() const { return is_grey(sigma_s) && is_grey(sigma_t); }
 
   /// Calls visit(const DensityPiece&) along the ray until it returns false. Returns the number of look-ups.

@@ -6,7 +6,8 @@ namespace {
 
 /// Draws the outcome; `scatter` becomes that of a surface.
 bool draw_outcome(const Scene& scene, const Event& event, PathState& state, Rng& rng, Scatter& scatter) {
-  if (event.kind == EventKind::collision) return scatter_in_medium(scene.media[state.medium], state, rng);
+  if (event.kind == EventKind::collision)
+    return scatter_in_medium(scene.media[state.medium].properties(state.ray.origin), state, rng);
   return scatter_at_surface(scene, event.hit, state, rng, scatter);
 }
 

@@ -89,12 +89,12 @@ bool survive_roulette(double weight, PathState& state, Rng& rng) {
   return true;
 }
 
-bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng) {
-  const Rgb albedo = medium.albedo();
+bool scatter_in_medium(const MediumProperties& here, PathState& state, Rng& rng) {
+  const Rgb albedo = here.albedo();
   const float q = is_grey(albedo) ? albedo.r : glm::dot(albedo, channel_shares(state.throughput));
   if (rng.uniform() >= q) return false;
   if (!is_grey(albedo)) state.throughput *= albedo / q;
-  state.ray.direction = phase_sample(medium.phase, state.ray.direction, rng.uniform2());
+  state.ray.direction = phase_sample(here.phase, state.ray.direction, rng.uniform2());
   return true;
 }
 

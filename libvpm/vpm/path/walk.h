@@ -85,7 +85,7 @@ bool survive_roulette(double weight, PathState& state, Rng& rng);
 /// Draws the outcome of a collision. The path scatters with probability q = sum(albedo |throughput|) /
 /// sum(|throughput|): its throughput is multiplied by albedo / q and a new direction is drawn. False if the path is
 /// absorbed. Where the albedo is grey the throughput does not change [Jarosz2008, eq. 7.8].
-bool scatter_in_medium(const Medium& medium, PathState& state, Rng& rng);
+bool scatter_in_medium(const MediumProperties& here, PathState& state, Rng& rng);
 
 /// Moves a path off a surface along the direction of `scatter`, into the medium there. Leaves its throughput alone.
 void leave_along(const Scene& scene, const Hit& hit, const Scatter& scatter, PathState& state);

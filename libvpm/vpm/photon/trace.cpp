@@ -148,8 +148,8 @@ class PhotonPath {
     alive_ = weight > 0.0 && survive_roulette(worth(), at_.state, rng);
     if (!alive_) return;
     for (PhotonRecorder* const recorder : of_collisions_) recorder->collided(arriving());
-    const Medium& medium = scene_.media[at_.state.medium];
-    deposit(out_.ledger.absorbed_in_media, Rgbd(at_.state.throughput * (Rgb(1.0f) - medium.albedo())));
+    const MediumProperties here = scene_.media[at_.state.medium].properties(at_.state.ray.origin);
+    deposit(out_.ledger.absorbed_in_media, Rgbd(at_.state.throughput * (Rgb(1.0f) - here.albedo())));
     at_.direct = at_.specular = at_.from_rough = false;
   }
 
@@ -165,8 +165,9 @@ class PhotonPath {
   }
 
   void scatter_in(const Medium& medium, Rng& rng) {
-    alive_ = directions_ ? scatter_in_medium(*directions_, medium, at_.state, rng)
-                         : scatter_in_medium(medium, at_.state, rng);
+    const MediumProperties here = medium.properties(at_.state.ray.origin);
+    alive_ =
+        directions_ ? scatter_in_medium(*directions_, here, at_.state, rng) : scatter_in_medium(here, at_.state, rng);
   }
 
   void scatter_at(const Hit& hit, Rng& rng) {

@@ -155,9 +155,9 @@ bool EyeSubPath::go_on(const Arrival& at) {
     }
   Onward onward;
   if (!vertex.on_surface) {
-    const Medium& medium = c_.scene.media[vertex.medium];
-    if (!scatter_in_medium(medium, at_.state, work_.rng)) return false;
-    onward.forward = onward.reverse = phase_density(medium, vertex.travel, at_.state.ray.direction);
+    const MediumProperties here = c_.scene.media[vertex.medium].properties(vertex.point);
+    if (!scatter_in_medium(here, at_.state, work_.rng)) return false;
+    onward.forward = onward.reverse = phase_value(here.phase, vertex.travel, at_.state.ray.direction);
   } else {
     Scatter scatter;
     if (!scatter_at_surface(c_.scene, vertex.hit, at_.state, work_.rng, scatter)) return false;

@@ -150,9 +150,9 @@ class LightSubPath {
     const PathVertex& vertex = at.vertex;
     Onward onward;
     if (!vertex.on_surface) {
-      const Medium& medium = c_.scene.media[vertex.medium];
-      if (!scatter_in_medium(medium, state_, rng_)) return false;
-      onward.forward = onward.reverse = phase_density(medium, vertex.travel, state_.ray.direction);
+      const MediumProperties here = c_.scene.media[vertex.medium].properties(vertex.point);
+      if (!scatter_in_medium(here, state_, rng_)) return false;
+      onward.forward = onward.reverse = phase_value(here.phase, vertex.travel, state_.ray.direction);
     } else {
       Scatter scatter;
       if (!scatter_at_surface(c_.scene, vertex.hit, state_, rng_, scatter)) return false;

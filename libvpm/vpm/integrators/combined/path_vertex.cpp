@@ -24,9 +24,9 @@ PathVertex vertex_at(const Scene& scene, const Event& event, const PathState& at
 
 Scattered scattered_into(const Scene& scene, const PathVertex& vertex, const Vec3& direction, SubPath sub_path) {
   if (!vertex.on_surface) {
-    const Medium& medium = scene.media[vertex.medium];
-    const double phase = phase_density(medium, vertex.travel, direction);
-    return {medium.albedo() * static_cast<float>(phase), phase, phase};
+    const MediumProperties there = scene.media[vertex.medium].properties(vertex.point);
+    const double phase = phase_value(there.phase, vertex.travel, direction);
+    return {there.albedo() * static_cast<float>(phase), phase, phase};
   }
   const ScatterValue there = scatter_value(vertex.material, vertex.hit, vertex.travel, direction);
   if (is_black(there.value)) return {};
@@ -35,10 +35,6 @@ Scattered scattered_into(const Scene& scene, const PathVertex& vertex, const Vec
                                                : shading_irradiance_scale(vertex.hit, vertex.travel) /
                                                      shading_irradiance_scale(vertex.hit, direction);
   return {there.value * scale, there.pdf, back.pdf};
-}
-
-float phase_density(const Medium& medium, const Vec3& before, const Vec3& after) {
-  return std::visit([&](const auto& phase) { return phase.value(before, after); }, medium.phase);
 }
 
 double integral_along(const Medium& medium, const Track& track, WalkCounters& counters) {

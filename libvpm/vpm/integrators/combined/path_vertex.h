@@ -33,9 +33,6 @@ struct Scattered {
 /// At a vertex that is not specular; black where it scatters nothing into the direction (unit).
 Scattered scattered_into(const Scene& scene, const PathVertex& vertex, const Vec3& direction, SubPath sub_path);
 
-/// The phase function of a medium between directions of travel, 1/sr.
-float phase_density(const Medium& medium, const Vec3& before, const Vec3& after);
-
 /// The density integral of a part of a flight, m: the distance strategy's own, where it knows that.
 double integral_along(const Medium& medium, const Track& track, WalkCounters& counters);
 

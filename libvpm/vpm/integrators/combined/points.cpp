@@ -173,7 +173,7 @@ void EyeSubPath::merge_points_3d(const Arrival& at) {
   count(work_.counters.volume_queries);
   count(work_.counters.gather.searches);
   const auto merge = [&](const MediumPhoton& photon, float distance2) {
-    const float phase = phase_density(medium, photon.travel, -vertex.travel);
+    const float phase = phase_value(medium.phase, photon.travel, -vertex.travel);
     const MergeTerms merges = merges_in_medium(c_.counts, at.junction, photon.passing / vertex.density, at.leg,
                                                sine_between(photon.travel, vertex.travel), at_.only_specular);
     const double all =

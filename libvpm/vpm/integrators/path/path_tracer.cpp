@@ -32,10 +32,10 @@ class TracedPath {
 
   bool scatter(const Scene& scene, const Event& event, PathState& at, Rng& rng) {
     if (event.kind == EventKind::collision) {
-      const Medium& medium = scene.media[at.medium];
+      const MediumProperties here = scene.media[at.medium].properties(at.ray.origin);
       const Vec3 travel = at.ray.direction;
-      if (!scatter_in_medium(medium, at, rng)) return false;
-      scatter_pdf_ = phase_value(medium.phase, travel, at.ray.direction);
+      if (!scatter_in_medium(here, at, rng)) return false;
+      scatter_pdf_ = phase_value(here.phase, travel, at.ray.direction);
       return true;
     }
     Scatter scatter;
@@ -61,11 +61,11 @@ class TracedPath {
 
   bool collide(PathState& at) {
     if (!survive_roulette(max_channel(glm::abs(at.throughput)), at, rng_)) return false;
-    const Medium& medium = c_.scene.media[at.medium];
+    const MediumProperties here = c_.scene.media[at.medium].properties(at.ray.origin);
     const DirectSample light = sample_light({at.ray.origin, at.medium});
     if (is_black(light.irradiance)) return true;
-    const float phase = phase_value(medium.phase, at.ray.direction, light.direction);
-    radiance_ += at.throughput * medium.albedo() * phase * light.irradiance * mis_weight(light.pdf, phase);
+    const float phase = phase_value(here.phase, at.ray.direction, light.direction);
+    radiance_ += at.throughput * here.albedo() * phase * light.irradiance * mis_weight(light.pdf, phase);
     return true;
   }
 

@@ -99,14 +99,14 @@ class LeavingDensity {
 
 }  // namespace
 
-bool scatter_in_medium(const DirectionGuide& guide, const Medium& medium, PathState& state, Rng& rng) {
+bool scatter_in_medium(const DirectionGuide& guide, const MediumProperties& here, PathState& state, Rng& rng) {
   const Vec3 travel = state.ray.direction;
-  if (!scatter_in_medium(medium, state, rng)) return false;
+  if (!scatter_in_medium(here, state, rng)) return false;
   const DirectionDensity known = guide.at(state.ray.origin);
   if (!known) return true;
   Vec3& direction = state.ray.direction;
   if (rng.uniform() < kGuided) direction = known.sample(rng);
-  state.throughput *= mixture_weight(phase_value(medium.phase, travel, direction), known.pdf(direction));
+  state.throughput *= mixture_weight(phase_value(here.phase, travel, direction), known.pdf(direction));
   return true;
 }
 

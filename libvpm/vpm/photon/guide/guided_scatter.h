@@ -63,7 +63,7 @@ class DirectionGuide {
 /// scatter_in_medium() with guided directions. Directions are drawn from a mixture of the medium's density and the
 /// guide's. The power is multiplied by the medium's density over that of the mixture, at most 10 / 9
 /// [Veach1997, sec. 9.2.4]. This factor has the mean 1, like Russian roulette. The guide does not change absorption.
-bool scatter_in_medium(const DirectionGuide& guide, const Medium& medium, PathState& state, Rng& rng);
+bool scatter_in_medium(const DirectionGuide& guide, const MediumProperties& here, PathState& state, Rng& rng);
 
 /// scatter_at_surface() with guided directions, in the same way; Scatter::weight contains the factor. Specular surfaces
 /// are not guided. Russian roulette ignores the guide: otherwise it would end those photons that the guide wants most,

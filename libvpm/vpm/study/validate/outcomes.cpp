@@ -53,8 +53,9 @@ std::vector<Check> check_collision(const Effort& effort) {
   Medium medium = make_medium(nullptr, Rgb(1.0f, 2.0f, 3.0f));
   const Rgb albedo(0.9f, 0.5f, 0.2f);
   medium.sigma_s = albedo * medium.sigma_t;
-  return check_kept("collision", albedo, effort,
-                    [&](PathState& state, Rng& rng) { return scatter_in_medium(medium, state, rng); });
+  return check_kept("collision", albedo, effort, [&](PathState& state, Rng& rng) {
+    return scatter_in_medium(medium.properties(state.ray.origin), state, rng);
+  });
 }
 
 /// A plane of that material across y = -1, and where a path along kTravel meets it.
@@ -188,7 +189,8 @@ std::vector<Check> check_media(const DirectionGuide& guide, const Effort& effort
     fog.phase = phase;
     append(checks, compare(name, guide, effort, [&](const DirectionGuide* by, Rng& rng) {
              PathState state{ray, 0, kArrivingPower};
-             const bool alive = by ? scatter_in_medium(*by, fog, state, rng) : scatter_in_medium(fog, state, rng);
+             const MediumProperties here = fog.properties(state.ray.origin);
+             const bool alive = by ? scatter_in_medium(*by, here, state, rng) : scatter_in_medium(here, state, rng);
              return Outcome{alive ? state.throughput : Rgb(0.0f), kArrivingPower * (Rgb(1.0f) - fog.albedo()),
                             state.ray.direction};
            }));
