@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "input/expectations.h"
 #include "input/scene_text.h"
 
 namespace vpm {
@@ -249,6 +250,35 @@ TEST(SceneFile, AnotherComponentLeavesOutWhatItDoesNotHave) {
             7u);
   EXPECT_EQ(components_first({"a=1", "integrator.volume.type=beam", "b=2", "integrator.type=path"}),
             (std::vector<std::string>{"integrator.type=path", "integrator.volume.type=beam", "a=1", "b=2"}));
+}
+
+/// Options leave out what was a setting, and nothing else.
+TEST(SceneFile, OptionsDoNotHideMistakesOfTheFile) {
+  const auto message = [](const std::string& text, const std::vector<std::string>& options) {
+    return message_of([&] { load_with(text, options); });
+  };
+  EXPECT_NE(message("[integrator.volume]\nraduis = 0.05\n", {"integrator.volume.type=beam"})
+                .find("unknown key 'raduis' in [integrator.volume]"),
+            std::string::npos);
+  EXPECT_NE(message("[integrator.nonsense]\n", {"integrator.type=path"}).find("unknown key 'nonsense'"),
+            std::string::npos);
+  const std::string by_option =
+      message("[integrator.surface]\nradius = 2\n", {"integrator.type=auto", "integrator.surface.radius=3"});
+  EXPECT_NE(by_option.find("--set integrator.surface.radius=3"), std::string::npos) << by_option;
+}
+
+TEST(SceneFile, AnyOptionLeavesOutKeysThatAreNoneAnyMore) {
+  const std::string guided = "[integrator.importance]\nimportons = 9\nscatter = true\n";
+  EXPECT_EQ(load_with(guided, {"integrator.importance.importons=0"}).left_out,
+            "integrator.importance.importons is \"0\" in place of \"9\": left out are integrator.importance.scatter");
+  const std::string gathered = "[integrator.indirect]\ntype = 'final-gather'\n[integrator.caustics]\nemitted = 5\n";
+  EXPECT_EQ(load_with(gathered, {"integrator.indirect.type=photons"}).left_out,
+            "integrator.indirect.type is \"photons\" in place of \"final-gather\": left out are "
+            "integrator.caustics.emitted");
+  const RenderJob combined = load_with("[integrator]\nradii = 'per-pixel'\n", {"integrator.type=combined"});
+  EXPECT_EQ(combined.left_out,
+            "integrator.type is \"combined\" in place of \"photon-map\": left out are integrator.radii");
+  EXPECT_EQ(combined.settings.radii, RadiusSchedule::per_pass);
 }
 
 }  // namespace

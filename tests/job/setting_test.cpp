@@ -65,13 +65,6 @@ std::vector<RenderSettings> all_choices() {
   return all;
 }
 
-/// Of all settings, in the order of their descriptions.
-std::vector<std::pair<std::string, SettingValue>> values(RenderSettings settings) {
-  std::vector<std::pair<std::string, SettingValue>> all;
-  for (const Setting& setting : describe(settings)) all.emplace_back(setting.key, setting.get());
-  return all;
-}
-
 TEST(Setting, HasAKeyOfItsOwn) {
   for (RenderSettings settings : all_choices()) {
     std::set<std::string> keys;

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 #include "vpm/job/bake.h"
 #include "vpm/render/render.h"
 

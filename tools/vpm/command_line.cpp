@@ -164,7 +164,7 @@ void add_upgrade(CLI::App& app, UpgradeOptions& options) {
   CLI::App* command =
       app.add_subcommand("upgrade", "Rewrite scenes and experiments that have the keys of older versions");
   command->footer(
-      "Example: vpm upgrade fog.toml rewrites the file, comments and all, and keeps the old one as "
+      "Example: vpm upgrade fog.toml rewrites the file with its comments, and keeps the old one as "
       "fog.toml.old.");
   command->add_option("files", options.files, "Scenes or experiments (.toml)");
   command->add_option("-o,--output", options.output, "File to write in the place of the one that is read");

@@ -234,7 +234,9 @@ std::vector<const Entry*> TableReader::unknown() const {
 }
 
 void TableReader::refuse_unknown(const Entry& entry, const std::string& hint) const {
-  fail_at(entry.place, "unknown key '" + entry.key + "' in " + title_, hint + suggest(entry.key, known_, "known keys"));
+  // An option may have given the key of a file another value.
+  const Place& place = entry.node.place.source == entry.place.source ? entry.place : entry.node.place;
+  fail_at(place, "unknown key '" + entry.key + "' in " + title_, hint + suggest(entry.key, known_, "known keys"));
 }
 
 void TableReader::refuse_word(const std::string& key, const Node& node, const std::vector<std::string>& words) const {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "vpm/integrators/photon_map/plan.h"
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 #include "vpm/integrators/render_scene.h"
 #include "vpm/job/lost_light.h"
 

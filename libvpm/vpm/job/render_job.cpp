@@ -45,11 +45,12 @@ std::string what_fits_text(const std::string& photons, const std::string& radius
   return fmt::format("{}{}{} would fit", photons, photons.empty() || radius.empty() ? "" : ", or ", radius);
 }
 
-/// The keys of radii that the settings do not give.
-AutomaticSettings::Keys radii_left_out(RenderSettings settings) {
+/// The keys of radii that the settings do not give, whichever maps there are: in code that may change.
+AutomaticSettings::Keys radii_left_out(const RenderSettings& settings) {
   AutomaticSettings::Keys keys;
-  for (const Setting& setting : describe(settings))
-    if (setting.usually_chosen && setting.get() == setting.usual) keys.insert(setting.key);
+  if (!settings.volume.radius.is_given()) keys.insert("integrator.volume.radius");
+  if (!settings.surface.radius.is_given()) keys.insert("integrator.surface.radius");
+  if (!settings.caustics.radius.is_given()) keys.insert("integrator.caustics.radius");
   return keys;
 }
 
@@ -86,8 +87,7 @@ void choose_automatic(RenderJob& job, const Clock& clock) {
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
   return {.scene = std::move(assembled.scene),
           .settings = settings,
-          .automatic = {.left_out = {"integrator.caustics.radius", "integrator.surface.radius",
-                                     "integrator.volume.radius"}},
+          .automatic = {.left_out = radii_left_out(settings)},
           .light_names = std::move(assembled.light_names),
           .notes = std::move(assembled.notes)};
 }

@@ -8,7 +8,7 @@
 #include "vpm/estimate/photon_map.h"
 #include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/integrators/photon_map/plan.h"
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 #include "vpm/tune/choice_rules.h"
 
 namespace vpm {

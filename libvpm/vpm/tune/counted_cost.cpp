@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "vpm/estimate/photon_map.h"
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 
 namespace vpm {
 namespace {

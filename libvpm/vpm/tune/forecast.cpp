@@ -15,7 +15,7 @@
 #include "vpm/integrators/integrator.h"
 #include "vpm/integrators/photon_map/photon_blocks.h"
 #include "vpm/integrators/photon_map/plan.h"
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 #include "vpm/tune/choice_rules.h"
 #include "vpm/tune/eye_blocks.h"
 #include "vpm/tune/pilot.h"

@@ -9,7 +9,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/base/progress.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 #include "vpm/path/follow.h"
 #include "vpm/path/walk.h"
 #include "vpm/photon/map/nearest_map.h"

@@ -9,7 +9,7 @@
 namespace vpm {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf";
 
 /// "volume.radius" of `volume . "radius"`.
 std::string plain_key(const std::string& written) {
@@ -62,8 +62,8 @@ TomlPiece header_of(const std::string& line) {
 }  // namespace
 
 Lines::Lines(std::string_view text) {
-  if (text.starts_with(kByteOrderMark)) {
-    mark = kByteOrderMark;
+  if (text.starts_with(kMarkOfUtf8)) {
+    mark = kMarkOfUtf8;
     text.remove_prefix(mark.size());
   }
   if (text.find("\r\n") != std::string_view::npos) end = "\r\n";

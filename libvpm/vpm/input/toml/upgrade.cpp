@@ -136,7 +136,8 @@ std::string with_inline_keys(const std::string& statement) {
     const char c = statement[i];
     if (quote != 0 || c == '"' || c == '\'') quote = quote == 0 ? c : c == quote ? 0 : quote;
     if (quote == 0 && c == '#') return text + statement.substr(i);
-    const bool begins = quote == 0 && i > 0 && std::string_view("{ ,").find(statement[i - 1]) != std::string_view::npos;
+    const bool begins =
+        quote == 0 && i > 0 && c != ' ' && std::string_view("{ ,").find(statement[i - 1]) != std::string_view::npos;
     const size_t equals = begins ? statement.find('=', i) : std::string::npos;
     const OldKey* const old =
         equals == std::string::npos ? nullptr : find_old(trimmed(statement.substr(i, equals - i)));

@@ -4,7 +4,7 @@
 #include "vpm/base/settings/setting_error.h"
 #include "vpm/integrators/photon_map/integrator.h"
 #include "vpm/integrators/photon_map/plan.h"
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 
 namespace vpm {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "vpm/base/clock.h"
 #include "vpm/integrators/photon_map/eye_path.h"
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 #include "vpm/photon/map/photon_table.h"
 #include "vpm/photon/trace.h"
 

@@ -4,7 +4,7 @@
 
 #include "vpm/integrators/photon_map/integrator.h"
 #include "vpm/integrators/photon_map/photon_blocks.h"
-#include "vpm/integrators/photon_map/volume/estimators.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 #include "vpm/integrators/stages.h"
 
 namespace vpm {

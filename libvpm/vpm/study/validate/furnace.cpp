@@ -294,9 +294,7 @@ std::vector<Check> check_combined(const Effort& effort) {
       {"connections and light tracing", {T::connections, T::light_tracing}},
       {"connections and points in balls", {T::connections, T::points_3d}},
       {"connections and points beside rays", {T::connections, T::points_2d}},
-      {"connections and beams", {T::connections, T::short_beams}},
-      {"connections and long beams", {T::connections, T::long_beams}},
-      {"connections and planes", {T::connections, T::planes}}};
+      {"connections and beams", {T::connections, T::short_beams}}};
   std::vector<Check> checks;
   for (const auto& [where, make] :
        {std::pair("white surfaces in a random grid", &furnished_box), {"a room of glowing walls", &glowing_room}}) {

@@ -26,23 +26,23 @@ Vec3 arriving(double angle, bool from_outside) {
 
 /// Reflection under the cosine law: cells of equal flux, and the value that shadow rays use, integrated.
 std::vector<Check> check_diffuse(bool from_outside, const Effort& effort) {
-  constexpr size_t kRings = 6, kCells = kRings * kSectors;
+  constexpr size_t kBands = 6, kPatches = kBands * kSectors;
   const Material material = Lambertian{Rgb(0.7f)};
   const Vec3 travel = arriving(1.0, from_outside), near = from_outside ? kUpright : -kUpright;
   const std::string name = fmt::format("diffuse, from {}", from_outside ? "outside" : "inside");
   const auto samples =
-      sample_moments(kCells + 2, effort.count(100'000, 10'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
+      sample_moments(kPatches + 2, effort.count(100'000, 10'000'000), effort.seed_of(name), [&](Rng& rng, double* out) {
         const Scatter scatter = sample_scatter(material, kUpright, travel, rng.uniform(), rng.uniform2());
         const double cosine = 1.0 - away_from(near, scatter.direction);
-        out[cell_of(cosine * cosine, kRings) * kSectors + sector_about(near, scatter.direction)] = cosine > 0.0;
+        out[cell_of(cosine * cosine, kBands) * kSectors + sector_about(near, scatter.direction)] = cosine > 0.0;
         const ScatterValue value = scatter_value(material, kUpright, travel, uniform_sphere(rng.uniform2()));
-        out[kCells] = 4.0 * kPiD * value.value.g;
-        out[kCells + 1] = 4.0 * kPiD * value.pdf;
+        out[kPatches] = 4.0 * kPiD * value.value.g;
+        out[kPatches + 1] = 4.0 * kPiD * value.pdf;
       });
-  const std::vector<double> equal(kCells, 1.0 / static_cast<double>(kCells));
+  const std::vector<double> equal(kPatches, 1.0 / static_cast<double>(kPatches));
   return {check_weights(name + ", directions", {samples.begin(), samples.end() - 2}, equal),
-          check_mean(name + ", integral of values", samples[kCells], 0.7),
-          check_mean(name + ", integral of its pdf", samples[kCells + 1], 1.0)};
+          check_mean(name + ", integral of values", samples[kPatches], 0.7),
+          check_mean(name + ", integral of its pdf", samples[kPatches + 1], 1.0)};
 }
 
 /// Glass, from either side: the mirror's law or Snell's for each drawn direction, weight 1 for photons, and radiance

@@ -125,8 +125,7 @@ function countsOf(json, name) {
 }
 
 function fillCounts(section) {
-  for (const name
-           of ['photons', 'eye', 'boundaries', 'memory', 'times', 'energy', 'error', 'radii_of_pixels']) {
+  for (const name of ['photons', 'eye', 'boundaries', 'memory', 'times', 'energy', 'error', 'radii_of_pixels']) {
     const rows = countsOf(report[name], name);
     if (rows.length === 0) continue;
     section.append(element(

@@ -1,14 +1,12 @@
-// The estimators of the light of media: what each is, which settings it has, and how it is made for a pass. Each file
-// of this folder has some, and estimators.cpp the list.
+// How estimators of the light of media are made for a pass, and which settings several of them have.
 #pragma once
 
 #include <memory>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "vpm/base/settings/setting.h"
 #include "vpm/integrators/photon_map/volume/beam_maps.h"
+#include "vpm/integrators/photon_map/volume/estimator_info.h"
 #include "vpm/integrators/photon_map/volume/marched.h"
 #include "vpm/integrators/photon_map/volume/volume_maps.h"
 #include "vpm/integrators/photon_map/volume/volume_settings.h"
@@ -31,20 +29,6 @@ struct VolumeEstimators {
   std::vector<std::unique_ptr<VolumeEstimator>> whole;
   std::vector<std::unique_ptr<MarchedSource>> marched;
 };
-
-struct VolumeEstimatorInfo {
-  std::string_view name;
-  std::string_view summary;              // Markdown
-  GatherMode mode = GatherMode::radius;  // of its maps of photons
-  bool along_rays = false;               // gathers along whole stretches of rays, not around points of a march
-  bool collisions = true;                // has a map of these
-  bool flights = false;                  // has a map of these
-  bool planes = false;                   // makes planes of some, which cost shadow rays
-  void (*describe)(VolumeSettings&, Description&) = nullptr;  // what it has besides radius, kernel, form, boundary
-  void (*make)(const VolumePlan&, VolumeEstimators&) = nullptr;
-};
-
-std::span<const VolumeEstimatorInfo> volume_estimators();
 
 /// Describes `type` and the settings of the estimator that it names. `photons_weigh`: do photons weigh 1/density, so
 /// that a floor of densities bounds that?

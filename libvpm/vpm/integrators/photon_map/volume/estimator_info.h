@@ -1,0 +1,30 @@
+// The estimators of the light of media: what each is, which settings it has, and how it is made. Each file of this
+// folder has some, and estimators.cpp the list.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "vpm/integrators/photon_map/volume/volume_settings.h"
+
+namespace vpm {
+
+class Description;
+struct VolumePlan;
+struct VolumeEstimators;
+
+struct VolumeEstimatorInfo {
+  std::string_view name;
+  std::string_view summary;              // Markdown
+  GatherMode mode = GatherMode::radius;  // of its maps of photons
+  bool along_rays = false;               // gathers along whole stretches of rays, not around points of a march
+  bool collisions = true;                // has a map of these
+  bool flights = false;                  // has a map of these
+  bool planes = false;                   // makes planes of some, which cost shadow rays
+  void (*describe)(VolumeSettings&, Description&) = nullptr;  // what it has besides radius, kernel, form, boundary
+  void (*make)(const VolumePlan&, VolumeEstimators&) = nullptr;
+};
+
+std::span<const VolumeEstimatorInfo> volume_estimators();
+
+}  // namespace vpm
