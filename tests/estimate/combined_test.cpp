@@ -121,7 +121,7 @@ Scene foggy_box(const Material& floor = Lambertian{Rgb(0.6f)}) {
 RenderSettings combined_settings_of(uint64_t paths) {
   RenderSettings settings;
   settings.integrator = Integrator::combined;
-  settings.photons_emitted = paths;
+  settings.photons.emitted = paths;
   settings.volume.radius = settings.surface.radius = 0.1f;
   for (const TechniqueInfo& info : kTechniques) settings.combined.techniques.set(info.technique, true);
   return settings;

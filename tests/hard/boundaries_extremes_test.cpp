@@ -61,7 +61,7 @@ TEST(BoundariesExtremes, TheEyeInsideASolid) {
   dark.geometry.commit();
   finish(dark);
   RenderSettings by_rays = settings_of(20000, 0.05f);
-  by_rays.volume_direct = DirectLight::shadow_rays;
+  by_rays.single_scattering.type = DirectLight::shadow_rays;
   for (const Rgb& pixel : clean_image(dark, by_rays).pixels) EXPECT_EQ(pixel, Rgb(0.0f));
 }
 

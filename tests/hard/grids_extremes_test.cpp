@@ -38,7 +38,7 @@ TEST(GridsExtremes, AnEmptyGridIsVacuum) {
       Scene scene = boxed_medium(make_medium(empty, Rgb(1e9f), 0.5f), ConstantEnvironment{Rgb(1.0f)});
       scene.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 30.0f, {4, 4});
       RenderSettings settings = settings_of(1000, 0.1f);
-      settings.volume_direct = direct;
+      settings.single_scattering.type = direct;
       settings.volume.form = form;
       for (const Rgb& pixel : clean_image(scene, settings).pixels) EXPECT_EQ(pixel, Rgb(1.0f));
     }
@@ -182,7 +182,7 @@ TEST(GridsExtremes, DensitiesAtTheEndsOfFloatGiveTheSamePicture) {
       for (const char* gather : {"radius", "nearest"}) {
         RenderSettings settings = settings_of(4000, 0.125f);
         settings.volume.form = form;
-        settings.volume_direct = direct;
+        settings.single_scattering.type = direct;
         settings.volume.choose(gather);
         const Image benign = clean_image(smoke_of(1.0f), settings);
         EXPECT_GT(mean_of(benign), 1e-3);

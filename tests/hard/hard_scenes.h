@@ -15,7 +15,7 @@ namespace vpm {
 /// Fixed radii for both maps.
 inline RenderSettings settings_of(uint64_t photons, float radius) {
   RenderSettings settings;
-  settings.photons_emitted = photons;
+  settings.photons.emitted = photons;
   settings.volume.radius = radius;
   settings.surface.radius = radius;
   settings.radii = RadiusSchedule::constant;

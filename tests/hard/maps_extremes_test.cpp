@@ -55,7 +55,7 @@ TEST(MapsExtremes, KNearestWhereAllKCoincideWithTheQueryIsNoNumberAndCounted) {
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings = settings_of(100'000, 4.0f);  // most miss: the sphere around the scene is rounded up, too
-  settings.surface_direct = DirectLight::photons;
+  settings.direct.type = DirectLight::photons;
   settings.surface.mode = GatherMode::nearest;
   const Pass pass = render_photon_pass(scene, settings, 0);
   for (const Rgb& pixel : pass.image.pixels) EXPECT_TRUE(is_finite(pixel));

@@ -133,7 +133,7 @@ TEST(MediaExtremes, SingleScatteringIsExactWhereNoPhotonCollides) {
     scene.geometry.commit();
     finish(scene);
     RenderSettings settings = settings_of(1, 0.01f);
-    settings.volume_direct = DirectLight::shadow_rays;
+    settings.single_scattering.type = DirectLight::shadow_rays;
     const Moments mean = clean_means(scene, settings, 64);
     const double exact = 0.5 / (8.0 * kPiD) * -std::expm1(-2.0 * sigma);
     worst.see(mean.mean() / exact - 1.0);
@@ -219,7 +219,7 @@ TEST(MediaExtremes, TheWhiteFurnaceIsOneWhateverTheExtinctionAndTheAnisotropy) {
     for (const float sigma : {0.0f, 1e-9f, 1e-2f, 0.3f}) {
       const Scene scene = furnace_ball(sigma, g, 1.0f);
       RenderSettings settings = settings_of(20000, 0.2f);
-      settings.volume_direct = DirectLight::photons;
+      settings.single_scattering.type = DirectLight::photons;
       const Moments mean = clean_means(scene, settings, 8);
       worst.see(mean.mean() - 1.0);
       const double noise = 1e-6 + normal_quantile(kFalseAlarms) * std::sqrt(mean.variance_of_mean());
@@ -237,7 +237,7 @@ TEST(MediaExtremes, TheWhiteFurnaceIsOneInBallsOfAllSizes) {
     const Scene scene = furnace_ball(sigma, 0.0f, radius);
     RenderSettings settings = settings_of(20000, 0.2f * radius);
     for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
-      settings.volume_direct = direct;
+      settings.single_scattering.type = direct;
       const Moments mean = clean_means(scene, settings, 16);
       const double error = std::sqrt(mean.variance_of_mean());
       worst.see(mean.mean() - 1.0);
@@ -332,7 +332,7 @@ TEST(MediaExtremes, LightStraightThroughForwardScatteringIsExact) {
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings = settings_of(1, 1e-3f);
-  settings.volume_direct = DirectLight::shadow_rays;
+  settings.single_scattering.type = DirectLight::shadow_rays;
   const double e = 1.0 - g, away = 5e-9;  // 1 - cos of 1e-4
   const double peak = e * (1.0 + g) / (4.0 * kPiD * std::pow(e * e + 2.0 * g * away, 1.5));
   const double exact = peak * 2.0 * sigma * std::exp(-2.0 * sigma);

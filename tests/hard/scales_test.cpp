@@ -45,7 +45,7 @@ Scene small_world(float unit, const Vec3& center, Lamp lamp) {
 
 RenderSettings settings_for(float unit, DirectLight direct, GatherMode gather, VolumeForm form) {
   RenderSettings settings = settings_of(8000, 0.125f * unit);
-  settings.volume_direct = settings.surface_direct = direct;
+  settings.single_scattering.type = settings.direct.type = direct;
   settings.volume.choose(gather == GatherMode::nearest ? "nearest" : "radius");
   settings.surface.mode = gather;
   settings.volume.form = form;

@@ -57,15 +57,15 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.max_events, 77);
   EXPECT_EQ(s.radii, RadiusSchedule::constant);
   EXPECT_EQ(s.max_optical_step, 0.25f);
-  EXPECT_EQ(s.photons_emitted, 1000u);
-  EXPECT_EQ(s.photons_stored, 500u);
-  EXPECT_EQ(s.photons_in_cube, 4u);
-  EXPECT_EQ(s.guide.importons, 70u);
-  EXPECT_FALSE(s.guide.aim);
-  EXPECT_FALSE(s.guide.split);
-  EXPECT_TRUE(s.guide.scatter);
+  EXPECT_EQ(s.photons.emitted, 1000u);
+  EXPECT_EQ(s.photons.stored, 500u);
+  EXPECT_EQ(s.photons.in_cube, 4u);
+  EXPECT_EQ(s.importance.importons, 70u);
+  EXPECT_FALSE(s.importance.aim);
+  EXPECT_FALSE(s.importance.split);
+  EXPECT_TRUE(s.importance.scatter);
   EXPECT_EQ(s.caustics.radius.metres(), 0.01f);
-  EXPECT_EQ(s.caustics_emitted, 800u);
+  EXPECT_EQ(s.caustics.emitted, 800u);
   EXPECT_EQ(s.distance.strategy, "ray-march-adaptive");
   EXPECT_EQ(s.distance.parameters, (Parameters{{"step", 0.5f}, {"optical_step", 0.02f}}));
   EXPECT_EQ(s.transmittance.estimator, "unbiased-ray-march");
@@ -75,16 +75,16 @@ TEST(SceneFile, ReadsEverySetting) {
   EXPECT_EQ(s.volume.count, 40u);
   EXPECT_EQ(s.volume.kernel, KernelKind::biweight);
   EXPECT_EQ(s.volume.form, VolumeForm::density_at_photon);
-  EXPECT_EQ(s.volume_direct, DirectLight::shadow_rays);
+  EXPECT_EQ(s.single_scattering.type, DirectLight::shadow_rays);
   EXPECT_EQ(s.surface.mode, GatherMode::nearest);
   EXPECT_EQ(s.surface.radius.metres(), 0.3f);
   EXPECT_EQ(s.surface.count, 60u);
   EXPECT_EQ(s.surface.kernel, KernelKind::constant);
-  EXPECT_EQ(s.surface_direct, DirectLight::photons);
-  EXPECT_EQ(s.surface_indirect, IndirectLight::final_gather);
-  EXPECT_EQ(s.gather_rays, 5);
-  EXPECT_EQ(s.gather_by, GatherBy::photons);
-  EXPECT_EQ(s.end_irradiance, EndIrradiance::precomputed);
+  EXPECT_EQ(s.direct.type, DirectLight::photons);
+  EXPECT_EQ(s.indirect.type, IndirectLight::final_gather);
+  EXPECT_EQ(s.indirect.rays, 5);
+  EXPECT_EQ(s.indirect.rays_by, GatherBy::photons);
+  EXPECT_EQ(s.indirect.irradiance, EndIrradiance::precomputed);
 }
 
 TEST(SceneFile, CorrectsAtBordersWhereAsked) {
@@ -106,9 +106,10 @@ TEST(SceneFile, CorrectsAtBordersWhereAsked) {
 
 TEST(SceneFile, SingleScatteringMayBeEquiangular) {
   const RenderSettings usual = load_with("[integrator.single_scattering]\ntype = 'equiangular'\n").settings;
-  EXPECT_EQ(usual.volume_direct, DirectLight::equiangular);
-  EXPECT_EQ(usual.direct_samples, RenderSettings{}.direct_samples);
-  EXPECT_EQ(load_with("[integrator.single_scattering]\ntype = 'equiangular'\nsamples = 7\n").settings.direct_samples,
+  EXPECT_EQ(usual.single_scattering.type, DirectLight::equiangular);
+  EXPECT_EQ(usual.single_scattering.samples, RenderSettings{}.single_scattering.samples);
+  EXPECT_EQ(load_with("[integrator.single_scattering]\ntype = 'equiangular'\nsamples = 7\n")
+                .settings.single_scattering.samples,
             7);
 }
 
@@ -131,15 +132,15 @@ TEST(SceneFile, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(s.until.passes, d.until.passes);
   EXPECT_EQ(s.seed, d.seed);
   EXPECT_EQ(s.max_events, d.max_events);
-  EXPECT_EQ(s.photons_emitted, d.photons_emitted);
-  EXPECT_EQ(s.photons_stored, d.photons_stored);
+  EXPECT_EQ(s.photons.emitted, d.photons.emitted);
+  EXPECT_EQ(s.photons.stored, d.photons.stored);
   EXPECT_EQ(s.transmittance.estimator, d.transmittance.estimator);
   EXPECT_EQ(s.volume.count, d.volume.count);
   EXPECT_EQ(s.volume.kernel, d.volume.kernel);
-  EXPECT_EQ(s.surface_direct, d.surface_direct);
-  EXPECT_EQ(s.gather_by, d.gather_by);
-  EXPECT_EQ(s.end_irradiance, d.end_irradiance);
-  EXPECT_EQ(load_with("[integrator.photons]\nstored = 10\n").settings.photons_emitted, 0u);  // until the maps are full
+  EXPECT_EQ(s.direct.type, d.direct.type);
+  EXPECT_EQ(s.indirect.rays_by, d.indirect.rays_by);
+  EXPECT_EQ(s.indirect.irradiance, d.indirect.irradiance);
+  EXPECT_EQ(load_with("[integrator.photons]\nstored = 10\n").settings.photons.emitted, 0u);  // until the maps are full
 }
 
 TEST(SceneFile, PhotonsFlyByNullCollisionsWhereNothingIsSaid) {
@@ -159,7 +160,7 @@ TEST(SceneFile, AutoIsReadWhereItIsWritten) {
       "[integrator.surface]\nradius = 2\n");
   EXPECT_EQ(loaded.automatic.keys, (Keys{"integrator.photons.emitted", "integrator.volume.radius"}));
   EXPECT_FALSE(loaded.settings.volume.radius.is_given());
-  EXPECT_EQ(loaded.settings.photons_emitted, RenderSettings{}.photons_emitted);
+  EXPECT_EQ(loaded.settings.photons.emitted, RenderSettings{}.photons.emitted);
   EXPECT_EQ(load_with("", {"integrator.distance.type=auto", "integrator.indirect.type=final-gather",
                            "integrator.caustics.radius=auto", "integrator.volume.type=auto"})
                 .automatic.keys,
@@ -236,7 +237,7 @@ TEST(SceneFile, AnotherComponentLeavesOutWhatItDoesNotHave) {
   EXPECT_EQ(combined.notes,
             std::vector<std::string>{"integrator.type is \"combined\" in place of \"photon-map\": left out are "
                                      "integrator.photons.in_cube, integrator.volume.type, integrator.volume.count"});
-  EXPECT_EQ(combined.settings.photons_emitted, 900u);
+  EXPECT_EQ(combined.settings.photons.emitted, 900u);
   EXPECT_EQ(combined.settings.volume.radius.metres(), 2.0f);
   const RenderJob beam = load_scene(path, {"integrator.volume.type=radius"});
   EXPECT_EQ(beam.notes,
@@ -246,7 +247,7 @@ TEST(SceneFile, AnotherComponentLeavesOutWhatItDoesNotHave) {
   // What options say is not left out.
   EXPECT_THROW(load_scene(path, {"integrator.type=path", "integrator.photons.emitted=7"}), InputError);
   EXPECT_EQ(load_scene(path, components_first({"integrator.photons.emitted=7", "integrator.type=combined"}))
-                .settings.photons_emitted,
+                .settings.photons.emitted,
             7u);
   EXPECT_EQ(components_first({"a=1", "integrator.volume.type=beam", "b=2", "integrator.type=path"}),
             (std::vector<std::string>{"integrator.type=path", "integrator.volume.type=beam", "a=1", "b=2"}));

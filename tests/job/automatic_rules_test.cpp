@@ -165,7 +165,7 @@ TEST(Automatic, RefusesChoicesThatAreNone) {
   set_chosen(settings, "integrator.volume.radius", "0.0123");
   EXPECT_EQ(settings.volume.radius.metres(), 0.0123f);
   set_chosen(settings, "integrator.photons.emitted", "170000");
-  EXPECT_EQ(settings.photons_emitted, 170'000u);
+  EXPECT_EQ(settings.photons.emitted, 170'000u);
   set_chosen(settings, "integrator.distance.type", "delta");
   EXPECT_EQ(settings.distance.strategy, "delta");
   EXPECT_THROW(set_chosen(settings, "integrator.volume.radius", "-1"), InputError);

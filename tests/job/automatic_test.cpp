@@ -66,7 +66,7 @@ TEST(Automatic, ChangesNothingThatIsGiven) {
   given.volume.radius = 0.3f;
   given.surface.radius = 0.4f;
   given.caustics.radius = 0.5f;
-  given.photons_emitted = 12'345;
+  given.photons.emitted = 12'345;
   given.distance.strategy = "delta";
   RenderSettings settings = given;
   EXPECT_TRUE(choose_settings(scene, {}, {SimulatedClock(), kInfinity}, settings).choices.empty());
@@ -76,7 +76,7 @@ TEST(Automatic, ChangesNothingThatIsGiven) {
   EXPECT_EQ(settings.volume.radius.metres(), 0.3f);
   EXPECT_NE(settings.surface.radius.metres(), 0.4f);
   EXPECT_EQ(settings.caustics.radius.metres(), 0.5f);
-  EXPECT_EQ(settings.photons_emitted, 12'345u);
+  EXPECT_EQ(settings.photons.emitted, 12'345u);
   EXPECT_EQ(settings.distance.strategy, "delta");
 }
 
@@ -92,7 +92,7 @@ TEST(Automatic, LeavesAloneWhatTheSceneHasNoUseFor) {
   const std::vector<Choice> choices = choose_settings(scene, all, {SimulatedClock(), kInfinity}, settings).choices;
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(settings.distance.strategy, "homogeneous");
-  EXPECT_EQ(settings.photons_emitted, RenderSettings{}.photons_emitted);
+  EXPECT_EQ(settings.photons.emitted, RenderSettings{}.photons.emitted);
   EXPECT_FALSE(settings.volume.radius.is_given());
 }
 
@@ -109,11 +109,11 @@ TEST(Automatic, CountsTheExactStrategies) {
 TEST(Automatic, TheRadiusOfAMediumHoldsThePhotonsThatItPromises) {
   const Scene scene = lit_evenly(0.01f);
   RenderSettings settings;
-  settings.volume_direct = DirectLight::photons;
-  settings.photons_emitted = 1'000'000;
+  settings.single_scattering.type = DirectLight::photons;
+  settings.photons.emitted = 1'000'000;
   choose_records(scene, {{"integrator.volume.radius"}}, kInfinity, settings);
   // Of a cylinder through the box, 2 m long, that a share of 1 - exp(-0.02) collides in; few do so twice.
-  const double collisions = -std::expm1(-0.02) * settings.photons_emitted;
+  const double collisions = -std::expm1(-0.02) * settings.photons.emitted;
   const double share = 4.0 / 3.0 * std::pow(settings.volume.radius.metres(), 3.0) / (0.9 * 0.9 * 2.0);
   EXPECT_NEAR(share * collisions, kPhotonsWithin, 0.15 * kPhotonsWithin);
 }
@@ -169,10 +169,10 @@ TEST(Automatic, TheRadiusOfBeamsHoldsTheFlightsThatItPromises) {
   const Scene scene = lit_evenly(0.01f);
   RenderSettings settings;
   settings.volume.choose("photon-beams");
-  settings.photons_emitted = 1'000'000;
+  settings.photons.emitted = 1'000'000;
   choose_records(scene, {{"integrator.volume.radius"}}, kInfinity, settings);
   const double share = std::pow(settings.volume.radius.metres() / 0.9, 2.0);  // of the photons
-  EXPECT_NEAR(share * settings.photons_emitted, kPhotonsWithin, 0.15 * kPhotonsWithin);
+  EXPECT_NEAR(share * settings.photons.emitted, kPhotonsWithin, 0.15 * kPhotonsWithin);
 }
 
 /// The photons within the radius chosen, at a place that is lit evenly and seen straight, are as many as the rule says:
@@ -186,8 +186,8 @@ TEST(Automatic, TheRadiusHoldsThePhotonsThatItPromises) {
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings;
-  settings.surface_direct = DirectLight::photons;
-  settings.photons_emitted = 400'000;
+  settings.direct.type = DirectLight::photons;
+  settings.photons.emitted = 400'000;
   choose_records(scene, {{"integrator.surface.radius"}}, kInfinity, settings);
   const double share = std::pow(settings.surface.radius.metres() / 0.9, 2.0);  // of the photons
   // The median over 512 places of densities told by 16 photons each: off by 2 % or so, and by 4 % as the median of a
@@ -204,8 +204,8 @@ TEST(Automatic, TimesNoPhotonsWhereThereIsNoMap) {
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings;
-  settings.photons_emitted = 0;
-  settings.photons_stored = 100'000;
+  settings.photons.emitted = 0;
+  settings.photons.stored = 100'000;
   const PassCost cost = time_pass(scene, settings, 10.0);
   EXPECT_EQ(cost.photon, 0.0);
   EXPECT_GT(cost.eye, 0.0);
@@ -221,10 +221,10 @@ TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMapsUpToThatOfMerges) {
       {"integrator.photons.emitted", "integrator.volume.radius", "integrator.surface.radius"}};
   constexpr double kLimit = 0.25;  // s
   EXPECT_EQ(choose_records(scene, automatic, kLimit, combined).size(), 3u);
-  EXPECT_GE(combined.photons_emitted, kLeastCount);
-  EXPECT_LE(combined.photons_emitted, 100'000u);  // of a picture of 3000 pixels
+  EXPECT_GE(combined.photons.emitted, kLeastCount);
+  EXPECT_LE(combined.photons.emitted, 100'000u);  // of a picture of 3000 pixels
   RenderSettings maps;
-  maps.photons_emitted = combined.photons_emitted;
+  maps.photons.emitted = combined.photons.emitted;
   choose_records(scene, {{"integrator.volume.radius", "integrator.surface.radius"}}, kLimit, maps);
   EXPECT_EQ(combined.volume.radius.metres(), std::min(maps.volume.radius.metres(), first_radius_of_merges({}, scene)));
   EXPECT_EQ(combined.surface.radius.metres(), std::min(maps.surface.radius.metres(), first_radius({}, scene)));
@@ -238,7 +238,7 @@ TEST(Automatic, MergesAreByDefaultNoWiderThanWhereNobodyChooses) {
   const Scene scene = cloud_over_floor(true);
   const AutomaticSettings automatic{.left_out = {"integrator.volume.radius", "integrator.surface.radius"}};
   RenderSettings maps, combined;
-  maps.photons_emitted = combined.photons_emitted = 2000;
+  maps.photons.emitted = combined.photons.emitted = 2000;
   combined.integrator = Integrator::combined;
   choose_default_radii(scene, automatic, maps);
   for (const Choice& choice : choose_default_radii(scene, automatic, combined))
@@ -264,7 +264,7 @@ TEST(Automatic, RadiiHaveTheirDefaultsWhereTheTimeDoesNotAllowMore) {
   EXPECT_EQ(chosen.choices.size(), 2u);
   EXPECT_EQ(settings.volume.radius, usual.volume.radius);
   EXPECT_EQ(settings.surface.radius, usual.surface.radius);
-  EXPECT_EQ(settings.photons_emitted, usual.photons_emitted);
+  EXPECT_EQ(settings.photons.emitted, usual.photons.emitted);
 }
 
 TEST(Automatic, TheFirstOfAllIsTakenWhereTheTimeAllowsNoTrial) {
@@ -302,12 +302,12 @@ TEST(Automatic, CountsTheTracingsOfAPassInBlocks) {
   if (!kCounts) GTEST_SKIP() << "nothing is counted (VPM_COUNTERS=OFF)";
   const Scene scene = cloud_over_floor(true);
   RenderSettings settings;
-  settings.photons_emitted = 20'000;
+  settings.photons.emitted = 20'000;
   for (const auto& [type, tracings] : {std::pair{"radius", 2}, {"beam", 1}}) {
     settings.volume.choose(type);
-    settings.photons_block = 0;
+    settings.photons.block = 0;
     const PassCost whole = time_pass(scene, settings);
-    settings.photons_block = 5000;
+    settings.photons.block = 5000;
     const PassCost blocks = time_pass(scene, settings);
     EXPECT_DOUBLE_EQ(blocks.photon, tracings * whole.photon);
     EXPECT_GT(blocks.eye, whole.eye);
@@ -332,9 +332,9 @@ TEST(Automatic, CountsLessOfManyNearestPhotons) {
   };
   EXPECT_LT(share(diffuse), 0.2);
   EXPECT_EQ(share(glossy), 1.0);
-  few.caustics_emitted = many.caustics_emitted = 1000;
+  few.caustics.emitted = many.caustics.emitted = 1000;
   EXPECT_EQ(share(diffuse), 1.0);
-  few.caustics_emitted = many.caustics_emitted = 0;
+  few.caustics.emitted = many.caustics.emitted = 0;
   used.used_in_media = 1'000'000;
   EXPECT_EQ(share(diffuse), 1.0);
 }
@@ -343,7 +343,7 @@ TEST(Automatic, CountsLessOfManyNearestPhotons) {
 TEST(Automatic, TellsTheSameOfEachPhotonInAHurry) {
   const Scene scene = cloud_over_floor(false);
   RenderSettings settings;
-  settings.photons_emitted = 100'000'000;
+  settings.photons.emitted = 100'000'000;
   const PassCost cost = time_pass(scene, settings, 0.2);
   EXPECT_GT(cost.photon, 0.0);
   EXPECT_GT(cost.eye, 0.0);

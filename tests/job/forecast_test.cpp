@@ -16,7 +16,7 @@ namespace {
 RenderSettings within(double seconds, uint64_t photons) {
   RenderSettings settings;
   settings.until.seconds = seconds;
-  settings.photons_emitted = photons;
+  settings.photons.emitted = photons;
   return settings;
 }
 
@@ -42,7 +42,7 @@ TEST(Forecast, TellsHowManyPhotonsFit) {
   EXPECT_EQ(fitting(cost, within(5.0, 2'000'000)), "about 400000 integrator.photons.emitted");  // 4 s of 20
   EXPECT_EQ(fitting({1e-5, 9.0, 2.0}, within(5.0, 100'000)), "");
   RenderSettings full = within(5.0, 0);
-  full.photons_stored = 4'000'000;  // 2 of each photon
+  full.photons.stored = 4'000'000;  // 2 of each photon
   EXPECT_EQ(fitting(cost, full), "about 400000 integrator.photons.emitted");
   // Of the eye's 17 s, 16 are for photons.
   EXPECT_EQ(fitting({.photon = 1e-5, .eye = 17.0, .gathered = 16.0}, within(4.0, 100'000)),
@@ -71,7 +71,7 @@ TEST(Forecast, TellsARadiusThatFits) {
 TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
   const RenderJob job = fog();
   RenderSettings settings;
-  settings.photons_emitted = 100'000'000;  // 2e8 stored, 12.8 GB
+  settings.photons.emitted = 100'000'000;  // 2e8 stored, 12.8 GB
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 15e9));
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::light_map, 8e9));  // which shows no medium
   try {
@@ -83,10 +83,10 @@ TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
                              "000 integrator.photons.emitted would fit", "integrator.photons.block gathers as many"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
-  settings.photons_stored = 50'000'000;  // tracing stops there
+  settings.photons.stored = 50'000'000;  // tracing stops there
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
-  settings.photons_stored = 0;
-  settings.photons_emitted = 10'000'000;  // 2e7 stored, 1.3 GB; with flights, of which there are more, at least 12 GB
+  settings.photons.stored = 0;
+  settings.photons.emitted = 10'000'000;  // 2e7 stored, 1.3 GB; with flights, of which there are more, at least 12 GB
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
   settings.volume.choose("photon-beams");
   EXPECT_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9), InputError);
@@ -101,9 +101,9 @@ TEST(Forecast, RefusesPhotonsThatDoNotFitIntoMemory) {
 TEST(Forecast, CountsTheBlockOfPhotonsThatMemoryHolds) {
   const RenderJob job = fog();
   RenderSettings settings;
-  settings.photons_emitted = 1'000'000'000;
+  settings.photons.emitted = 1'000'000'000;
   EXPECT_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9), InputError);
-  settings.photons_block = 50'000'000;  // 1e8 stored, 6.4 GB
+  settings.photons.block = 50'000'000;  // 1e8 stored, 6.4 GB
   EXPECT_NO_THROW(check_memory(job.scene, settings, PassOf::picture, 8e9));
   try {
     check_memory(job.scene, settings, PassOf::picture, 4e9);
@@ -139,9 +139,9 @@ RenderJob glass_over_floor(uint64_t photons, uint64_t aimed) {
   scene.geometry.commit();
   finish(scene);
   RenderJob job = make_job(std::move(parts));
-  job.settings.photons_emitted = photons;
-  job.settings.surface_indirect = IndirectLight::final_gather;
-  job.settings.caustics_emitted = aimed;
+  job.settings.photons.emitted = photons;
+  job.settings.indirect.type = IndirectLight::final_gather;
+  job.settings.caustics.emitted = aimed;
   return job;
 }
 
@@ -149,7 +149,7 @@ TEST(Forecast, SeesCausticPhotonsThatTakeTooLong) {
   RenderJob job = glass_over_floor(1000, 100'000'000);
   // The eye's rays take far less, also where others work beside: they are few, and find few photons.
   job.settings.until.seconds = 0.5;
-  job.settings.gather_rays = 1;
+  job.settings.indirect.rays = 1;
   job.settings.caustics.radius = 1e-3f;
   foresee(job, SimulatedClock());
   ASSERT_EQ(job.notes.size(), 1u);
@@ -189,9 +189,9 @@ TEST(Forecast, RefusesCausticPhotonsThatDoNotFitIntoMemory) {
 TEST(Forecast, TellsWhereARayGathersVeryMany) {
   RenderJob job = fog();
   job.settings.volume.radius = 1.0f;
-  job.settings.photons_emitted = 10'000;
+  job.settings.photons.emitted = 10'000;
   EXPECT_EQ(wide_gather_text(job.scene, job.settings), "");
-  job.settings.photons_emitted = 1'000'000;
+  job.settings.photons.emitted = 1'000'000;
   const std::string text = wide_gather_text(job.scene, job.settings);
   EXPECT_EQ(text.substr(0, 30), "a ray from the eye gathers abo") << text;
   foresee(job);

@@ -28,7 +28,7 @@ Scene floor_under_glass(const Light& light) {
 RenderSettings settings_of(Heuristic heuristic) {
   RenderSettings settings;
   settings.integrator = Integrator::combined;
-  settings.photons_emitted = 20'000;
+  settings.photons.emitted = 20'000;
   settings.surface.radius = 0.1f;
   settings.radii = RadiusSchedule::constant;
   settings.combined.heuristic = heuristic;
@@ -81,7 +81,7 @@ TEST(LostLight, IsWhatPhotonsFindAndPathsDoNot) {
   const Scene scene = floor_under_glass(kLamp);
   RenderSettings settings;
   settings.until.passes = 8;
-  settings.photons_emitted = 20'000;
+  settings.photons.emitted = 20'000;
   settings.surface.radius = 0.1f;
   const auto mean = [&](Integrator integrator) {
     settings.integrator = integrator;

@@ -28,10 +28,10 @@ RenderJob lit_floor() {
   parts.lights = {{"lamp", PointLight{Vec3(0.2f, 1.5f, 0.1f), Rgb(10.0f, 5.0f, 2.0f)}}};
   parts.camera = make_camera(Vec3(1.5f, 1.2f, 1.5f), Vec3(0.2f, 0.0f, 0.2f), Vec3(0, 1, 0), 30.0f, {12, 12});
   RenderSettings settings;
-  settings.photons_emitted = 2000;
+  settings.photons.emitted = 2000;
   settings.surface.radius = 0.5f;
   settings.radii = RadiusSchedule::constant;
-  settings.surface_direct = DirectLight::photons;
+  settings.direct.type = DirectLight::photons;
   return make_job(assemble(std::move(parts)), settings);
 }
 
@@ -132,7 +132,7 @@ TEST(Render, CorrectsEstimatesAtBorders) {
 TEST(Render, KeepsLayersFromPassToPass) {
   RenderJob job = lit_floor();
   job.settings.integrator = Integrator::combined;
-  job.settings.photons_emitted = 500;
+  job.settings.photons.emitted = 500;
   job.settings.combined.layers = true;
   RenderResult result = render_until(job, {.passes = 2});
   job.settings.until = {.passes = 4};
@@ -331,7 +331,7 @@ TEST(RenderJob, OfScenesMadeInCodeRadiiAreChosenThatNobodyGives) {
 TEST(RenderJob, ChoosesNothingForSettingsThatContradictThemselves) {
   RenderJob job = lit_floor();
   job.automatic.keys = {"integrator.surface.radius"};
-  job.settings.photons_emitted = 0;
+  job.settings.photons.emitted = 0;
   EXPECT_THROW(choose(job), SettingError);
 }
 

@@ -22,14 +22,14 @@ Scene fog_with_lamp() {
 
 RenderSettings settings_with(float radius) {
   RenderSettings settings;
-  settings.photons_emitted = 5'000;
+  settings.photons.emitted = 5'000;
   settings.volume.choose("beam");
   settings.volume.radius = radius;
   return settings;
 }
 
 std::vector<Choice> choices_of(const RenderSettings& settings) {
-  return {{"integrator.photons.emitted", fmt::format("{}", settings.photons_emitted), "by cost"},
+  return {{"integrator.photons.emitted", fmt::format("{}", settings.photons.emitted), "by cost"},
           {"integrator.volume.radius", fmt::format("{}", settings.volume.radius.metres()), "by photons"},
           {"integrator.caustics.emitted", "7", "given"}};
 }
@@ -63,7 +63,7 @@ TEST(ScaleRecords, NarrowsWhereManyPassesLeaveLittleNoise) {
   few.radii = many.radii = RadiusSchedule::constant;
   few.until.passes = 1;
   many.until.passes = 10'000;
-  few.photons_emitted = many.photons_emitted = 100'000;
+  few.photons.emitted = many.photons.emitted = 100'000;
   scaled(scene, few);
   scaled(scene, many);
   EXPECT_EQ(few.volume.radius.metres(), radius);
@@ -78,7 +78,7 @@ TEST(ScaleRecords, TellBiasByTheWideRadius) {
   const auto settings_of = [&](double radius) {
     RenderSettings settings = settings_with(static_cast<float>(radius));
     settings.radii = RadiusSchedule::constant;
-    settings.photons_emitted = 20'000;
+    settings.photons.emitted = 20'000;
     return settings;
   };
   const RenderSettings settings = settings_of(narrow), wide = settings_of(4.0 * narrow);
@@ -114,12 +114,12 @@ TEST(ScaleRecords, PhotonsAreFewWhereTheyMakeNoNoiseAndManyWhereTheyMakeAll) {
   const Scene scene = fog_with_lamp();
   RenderSettings few = settings_with(0.3f), many = settings_with(0.3f);
   few.until.error = many.until.error = 1e-9;
-  few.photons_emitted = 3'000'000;
-  many.photons_emitted = 200;
+  few.photons.emitted = 3'000'000;
+  many.photons.emitted = 200;
   EXPECT_EQ(scaled(scene, few)[0].reason, "3000000: by cost; then times 0.5, which is told to leave less error");
-  EXPECT_EQ(few.photons_emitted, 1'500'000u);
+  EXPECT_EQ(few.photons.emitted, 1'500'000u);
   EXPECT_EQ(scaled(scene, many)[0].reason, "200: by cost; then times 2, which is told to leave less error");
-  EXPECT_EQ(many.photons_emitted, 400u);
+  EXPECT_EQ(many.photons.emitted, 400u);
 }
 
 /// A wide radius that makes a pass longer than the time is none.

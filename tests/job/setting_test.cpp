@@ -98,13 +98,16 @@ constexpr size_t members() {
 
 /// A member that is added to the settings must be described.
 TEST(Setting, IsEveryMemberOfTheSettings) {
-  // Less the base and eight structures of components; the maker of a piece knows its first pass.
-  constexpr size_t kOwn = members<RenderSettings>() - 9 + members<PassSettings>(),
+  // Less the base and twelve structures of components; the maker of a piece knows its first pass.
+  constexpr size_t kOwn = members<RenderSettings>() - 13 + members<PassSettings>(),
+                   kOfPhotons = members<PhotonSettings>(),
+                   kOfLight =
+                       members<SingleScatteringSettings>() + members<DirectSettings>() + members<IndirectSettings>(),
                    kOfStopRule = members<StopRule>() - 1, kOfGuide = members<GuideSettings>(),
                    kOfCombined = members<CombinedSettings>();
   constexpr size_t kOfVolume = 11;                           // and `count` stands for two members
   constexpr size_t kOfSurface = members<AskedGather>() - 1;  // without beam_count
-  constexpr size_t kOfCaustics = kOfSurface - 1;             // and the boundary of the surface
+  constexpr size_t kOfCaustics = kOfSurface - 1 + 1;         // the boundary is the surface's; and emitted
   size_t numbers = 2;                                        // the types of distance and transmittance
   for (const StrategyInfo& info : distance_strategies()) numbers += info.parameters.size();
   for (const EstimatorInfo& info : transmittance_estimators()) numbers += info.parameters.size();
@@ -112,8 +115,8 @@ TEST(Setting, IsEveryMemberOfTheSettings) {
   std::set<std::string> keys;
   for (RenderSettings settings : all_choices())
     for (const Setting& setting : describe(settings)) keys.insert(setting.key);
-  EXPECT_EQ(keys.size(),
-            kOwn + kOfStopRule + kOfGuide + kOfCombined + kOfVolume + kOfSurface + kOfCaustics + numbers - kSameName);
+  EXPECT_EQ(keys.size(), kOwn + kOfPhotons + kOfLight + kOfStopRule + kOfGuide + kOfCombined + kOfVolume + kOfSurface +
+                             kOfCaustics + numbers - kSameName);
 }
 
 TEST(Setting, ReachesItsMemberAndNoOther) {

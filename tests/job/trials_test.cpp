@@ -24,11 +24,11 @@ TEST_P(TheErrorOfAPass, IsThatOfTheFilm) {
   const RenderJob job = make_job(foggy_room(0.5f, lamp));
   RenderSettings settings;
   settings.integrator = GetParam();
-  settings.photon_sequence = PhotonSequence::random;  // noise as one over photons is what pilots take for granted
+  settings.photons.sequence = PhotonSequence::random;  // noise as one over photons is what pilots take for granted
   settings.volume.choose("beam");
   settings.volume.radius = 0.1f;
   settings.surface.radius = 0.2f;
-  settings.photons_emitted = GetParam() == Integrator::combined ? 4'000 : 20'000;
+  settings.photons.emitted = GetParam() == Integrator::combined ? 4'000 : 20'000;
   settings.radii = RadiusSchedule::constant;
   settings.until.passes = GetParam() == Integrator::path ? 64 : 8;
   const FilmErrors film = render(job.scene, settings, nothing_rendered(job.scene.camera)).errors.value();
@@ -55,7 +55,7 @@ TEST(Automatic, PilotsSeeWhatLightTracingFinds) {
   const auto mean_seen_by = [&](Technique technique) {
     RenderSettings settings;
     settings.integrator = Integrator::combined;
-    settings.photons_emitted = 50'000;
+    settings.photons.emitted = 50'000;
     settings.volume.radius = settings.surface.radius = 0.1f;
     for (const TechniqueInfo& info : kTechniques)
       settings.combined.techniques.set(info.technique, info.technique == technique);
@@ -78,7 +78,7 @@ TEST(Automatic, APartOfAPassHasTheSharesOfTheWhole) {
     settings.combined.techniques.set(
         info.technique, info.technique == Technique::light_tracing || info.technique == Technique::connections);
   const auto traced = [&](uint64_t paths, uint64_t paths_of_shares) {
-    settings.photons_emitted = paths;
+    settings.photons.emitted = paths;
     double sum = 0.0;
     for (const Rgb& light : rays_of_pass(scene, settings, 0, paths_of_shares).light_tracing.pixels)
       sum += double{mean_channel(light)};
@@ -91,7 +91,7 @@ TEST(Automatic, APartOfAPassHasTheSharesOfTheWhole) {
 
 /// The integrator that is chosen, with its reason.
 Choice chosen_integrator(const Scene& scene, RenderSettings settings) {
-  settings.photons_emitted = 5'000;
+  settings.photons.emitted = 5'000;
   const AutomaticSettings automatic{{"integrator.type", "integrator.volume.radius", "integrator.surface.radius"}};
   const std::vector<Choice> choices =
       choose_settings(scene, automatic, {SimulatedClock(), kInfinity}, settings).choices;
@@ -135,7 +135,7 @@ TEST(Automatic, TechniquesAreChosen) {
   const Scene scene = foggy_room(0.5f).scene;
   RenderSettings settings;
   settings.integrator = Integrator::combined;
-  settings.photons_emitted = 2'000;
+  settings.photons.emitted = 2'000;
   settings.volume.radius = settings.surface.radius = 0.1f;
   const std::vector<Choice> choices =
       choose_settings(scene, {{"integrator.techniques"}}, {SimulatedClock(), kInfinity}, settings).choices;
@@ -152,7 +152,7 @@ TEST(Automatic, TechniquesAreChosen) {
 /// A pass of so many photons takes far longer than the time asked for, whatever it is worth; one of paths does not.
 TEST(Automatic, WhatDoesNotFitIntoTheTimeIsNotChosen) {
   RenderSettings settings;
-  settings.photons_emitted = 100'000'000;
+  settings.photons.emitted = 100'000'000;
   settings.volume.radius = settings.surface.radius = 0.1f;
   settings.until.seconds = 0.5;
   choose_settings(foggy_room(0.5f).scene, {{"integrator.type"}}, {SimulatedClock(), kInfinity}, settings);
@@ -168,7 +168,7 @@ TEST(Automatic, IntegratorsThatTheSettingsRefuseAreNotTried) {
 
 /// What is chosen for integrator.volume.type, with its reason, and a radius for it; photons are given.
 Choice chosen_gather(const Scene& scene, RenderSettings settings) {
-  settings.photons_emitted = 20'000;
+  settings.photons.emitted = 20'000;
   settings.surface.radius = 0.1f;
   const std::vector<Choice> choices = choose_settings(scene, {{"integrator.volume.type", "integrator.volume.radius"}},
                                                       {SimulatedClock(), kInfinity}, settings)
@@ -191,7 +191,7 @@ TEST(Automatic, BeamsAreGatheredWhereFewPhotonsCollide) {
 /// In a dense medium photons collide often, and a flight says little more than the collision at its end.
 TEST(Automatic, PointsAreGatheredWherePhotonsCollideOften) {
   RenderSettings settings;
-  settings.photon_sequence = PhotonSequence::random;  // which is as noisy for both
+  settings.photons.sequence = PhotonSequence::random;  // which is as noisy for both
   const Choice choice = chosen_gather(foggy_room(5.0f).scene, settings);
   EXPECT_EQ(choice.value, "beam") << choice.reason;
 }
@@ -199,7 +199,7 @@ TEST(Automatic, PointsAreGatheredWherePhotonsCollideOften) {
 TEST(Automatic, GathersThatTheSettingsRefuseAreNotTried) {
   const Scene thin = lit_evenly(0.01f);
   RenderSettings merged;
-  merged.photons_in_cube = 10;
+  merged.photons.in_cube = 10;
   RenderSettings biased;
   biased.distance.strategy = "mean-extinction";
   for (const RenderSettings& settings : {merged, biased}) {

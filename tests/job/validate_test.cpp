@@ -37,20 +37,20 @@ S& combine(S& s) {
 }
 
 S& by_blocks(S& s) {
-  s.photons_block = 1000;
+  s.photons.block = 1000;
   return s;
 }
 
 S& gather_finally(S& s) {
-  s.surface_indirect = IndirectLight::final_gather;
+  s.indirect.type = IndirectLight::final_gather;
   return s;
 }
 
 const Contradiction kContradictions[] = {
-    {"integrator.photons.emitted", [](S& s) { s.photons_emitted = 0; }},
-    {"integrator.photons.in_cube", [](S& s) { s.photons_in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
-    {"integrator.photons.in_cube", [](S& s) { s.volume.choose("photon-beams"), s.photons_in_cube = 4; }},
-    {"integrator.photons.stored", [](S& s) { s.volume.choose("beams-points"), s.photons_stored = 1000; }},
+    {"integrator.photons.emitted", [](S& s) { s.photons.emitted = 0; }},
+    {"integrator.photons.in_cube", [](S& s) { s.photons.in_cube = 4, s.radii = RadiusSchedule::per_pixel; }},
+    {"integrator.photons.in_cube", [](S& s) { s.volume.choose("photon-beams"), s.photons.in_cube = 4; }},
+    {"integrator.photons.stored", [](S& s) { s.volume.choose("beams-points"), s.photons.stored = 1000; }},
     {"integrator.distance.type",
      [](S& s) { s.volume.choose("photon-planes"), s.distance.strategy = "mean-extinction"; }},
     {"integrator.distance.type",
@@ -62,10 +62,10 @@ const Contradiction kContradictions[] = {
     {"integrator.distance.type", [](S& s) { s.distance.strategy = "weighted"; }},
     {"integrator.distance.type", [](S& s) { s.distance.strategy = "woodcock"; }},
     {"integrator.transmittance.type",
-     [](S& s) { s.transmittance.estimator = "ratio", s.surface_direct = DirectLight::photons; }},
-    {"integrator.photons.stored", [](S& s) { by_blocks(s).photons_stored = 100; }},
-    {"integrator.photons.stored", [](S& s) { by_blocks(s).photons_stored = 100, s.photons_emitted = 0; }},
-    {"integrator.photons.in_cube", [](S& s) { by_blocks(s).photons_in_cube = 4; }},
+     [](S& s) { s.transmittance.estimator = "ratio", s.direct.type = DirectLight::photons; }},
+    {"integrator.photons.stored", [](S& s) { by_blocks(s).photons.stored = 100; }},
+    {"integrator.photons.stored", [](S& s) { by_blocks(s).photons.stored = 100, s.photons.emitted = 0; }},
+    {"integrator.photons.in_cube", [](S& s) { by_blocks(s).photons.in_cube = 4; }},
     {"integrator.volume.flights", [](S& s) { by_blocks(s).volume.choose("photon-beams"), s.volume.flights = 100; }},
     {"integrator.volume.type", [](S& s) { by_blocks(s).volume.choose("nearest"); }},
     {"integrator.volume.type", [](S& s) { by_blocks(s).volume.choose("photon-planes"); }},
@@ -73,33 +73,33 @@ const Contradiction kContradictions[] = {
     {"integrator.volume.count", [](S& s) { by_blocks(s).volume.choose("beam"), s.volume.beam_count = 20; }},
     {"integrator.surface.type", [](S& s) { by_blocks(s).surface.mode = GatherMode::nearest; }},
     {"integrator.caustics.type", [](S& s) { gather_finally(by_blocks(s)).caustics.mode = GatherMode::nearest; }},
-    {"integrator.caustics.emitted", [](S& s) { gather_finally(by_blocks(s)).caustics_emitted = 100; }},
-    {"integrator.indirect.rays_by", [](S& s) { gather_finally(by_blocks(s)).gather_by = GatherBy::photons; }},
+    {"integrator.caustics.emitted", [](S& s) { gather_finally(by_blocks(s)).caustics.emitted = 100; }},
+    {"integrator.indirect.rays_by", [](S& s) { gather_finally(by_blocks(s)).indirect.rays_by = GatherBy::photons; }},
     {"integrator.indirect.irradiance",
-     [](S& s) { gather_finally(by_blocks(s)).end_irradiance = EndIrradiance::precomputed; }},
-    {"integrator.volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
-    {"integrator.surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons_in_cube = 4; }},
-    {"integrator.direct.type", [](S& s) { s.surface_direct = DirectLight::equiangular; }},
+     [](S& s) { gather_finally(by_blocks(s)).indirect.irradiance = EndIrradiance::precomputed; }},
+    {"integrator.volume.boundary", [](S& s) { s.volume.boundary = BoundaryRule::corrected, s.photons.in_cube = 4; }},
+    {"integrator.surface.boundary", [](S& s) { s.surface.boundary = BoundaryRule::corrected, s.photons.in_cube = 4; }},
+    {"integrator.direct.type", [](S& s) { s.direct.type = DirectLight::equiangular; }},
     {"integrator.indirect.irradiance",
      [](S& s) {
-       s.end_irradiance = EndIrradiance::precomputed, s.surface.boundary = BoundaryRule::corrected;
-       s.surface_indirect = IndirectLight::final_gather;
+       s.indirect.irradiance = EndIrradiance::precomputed, s.surface.boundary = BoundaryRule::corrected;
+       s.indirect.type = IndirectLight::final_gather;
      }},
     {"integrator.surface.type",
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.mode = GatherMode::nearest; }},
     {"integrator.indirect.type",
-     [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface_indirect = IndirectLight::final_gather; }},
+     [](S& s) { s.radii = RadiusSchedule::per_pixel, s.indirect.type = IndirectLight::final_gather; }},
     {"integrator.surface.kernel",
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.kernel = KernelKind::order_4; }},
     {"integrator.surface.kernel",
      [](S& s) {
-       s.surface_indirect = IndirectLight::final_gather, s.end_irradiance = EndIrradiance::precomputed;
+       s.indirect.type = IndirectLight::final_gather, s.indirect.irradiance = EndIrradiance::precomputed;
        s.surface.kernel = KernelKind::order_4;
      }},
     {"integrator.surface.boundary",
      [](S& s) { s.radii = RadiusSchedule::per_pixel, s.surface.boundary = BoundaryRule::corrected; }},
     {"render.passes", [](S& s) { s.until.passes = 0; }},
-    {"integrator.photons.emitted", [](S& s) { combine(s).photons_emitted = 0; }},
+    {"integrator.photons.emitted", [](S& s) { combine(s).photons.emitted = 0; }},
     {"integrator.max_optical_step", [](S& s) { s.max_optical_step = 0.0f; }},
     {"integrator.volume.radius", [](S& s) { s.volume.radius = -1.0f; }},
     {"integrator.volume.density_floor", [](S& s) { s.volume.density_floor = std::numeric_limits<float>::quiet_NaN(); }},
@@ -140,17 +140,17 @@ TEST(Validate, LooksAtTheChosenComponentsAlone) {
   RenderSettings s;
   s.volume.flights = 100;
   s.volume.length = BeamLength::long_beams;
-  s.direct_samples = -1;
+  s.single_scattering.samples = -1;
   s.volume.count = 0;
-  s.gather_rays = 0;
+  s.indirect.rays = 0;
   s.combined.heuristic = Heuristic::power;
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "");
   for (const Integrator integrator : {Integrator::path, Integrator::combined}) {
     s = {};
     s.integrator = integrator;
-    s.photons_in_cube = 4;
+    s.photons.in_cube = 4;
     s.radii = integrator == Integrator::path ? RadiusSchedule::per_pixel : RadiusSchedule::constant;
-    by_blocks(s).photons_stored = 7;
+    by_blocks(s).photons.stored = 7;
     EXPECT_EQ(refused(s, kEverything), "");
   }
 }
@@ -173,7 +173,7 @@ TEST(Validate, FactsTellWhetherFlightsEnd) {
 
 TEST(Validate, PlanesCastShadowRays) {
   RenderSettings s;
-  s.surface_direct = DirectLight::photons;
+  s.direct.type = DirectLight::photons;
   s.transmittance.estimator = "ratio";
   EXPECT_EQ(refused(s, {.scattering_media = true}), "integrator.transmittance.type");
   s.volume.choose("photon-planes");
@@ -192,8 +192,8 @@ TEST(Validate, BlocksGoWithSumsOverPhotons) {
   for (const IndirectLight indirect : {IndirectLight::photons, IndirectLight::final_gather}) {
     RenderSettings s;
     by_blocks(s).surface.boundary = BoundaryRule::corrected;
-    s.surface_indirect = indirect;
-    s.guide.importons = 100;
+    s.indirect.type = indirect;
+    s.importance.importons = 100;
     EXPECT_EQ(refused(s, kEverything), "");
   }
   RenderSettings s;
@@ -216,7 +216,7 @@ TEST(Validate, BordersOfMediaRefuseNoOtherSetting) {
           s.volume.choose(info.name);
           s.volume.boundary = rule;
           s.volume.form = form;
-          s.photons_in_cube = in_cube;
+          s.photons.in_cube = in_cube;
           const bool asks_merged = in_cube > 0 && ((info.flights && info.along_rays) ||
                                                    (rule == BoundaryRule::corrected && !info.along_rays));
           if (!asks_merged) {
@@ -247,7 +247,7 @@ TEST(Validate, AsksTheSceneWhereThatDecides) {
   s.transmittance.estimator = "ratio";
   EXPECT_EQ(refused(s, {.rough_surfaces = true}), "");
   EXPECT_EQ(refused(s, {.scattering_media = true}), "integrator.transmittance.type");
-  s.volume_direct = DirectLight::shadow_rays;
+  s.single_scattering.type = DirectLight::shadow_rays;
   EXPECT_EQ(refused(s, {.scattering_media = true}), "");
   s = {};
   s.integrator = Integrator::path;
@@ -262,8 +262,8 @@ TEST(Validate, TakesACountWhereGathersGoByIt) {
   s.volume.beam_count = 20;
   s.surface.mode = GatherMode::nearest;
   s.surface.count = 20;
-  s.volume_direct = DirectLight::equiangular;
-  s.direct_samples = 3;
+  s.single_scattering.type = DirectLight::equiangular;
+  s.single_scattering.samples = 3;
   EXPECT_EQ(refused(s, kEverything), "");
   s.surface.count = 1;
   EXPECT_EQ(refused(s, kEverything), "integrator.surface.count");
@@ -273,7 +273,7 @@ TEST(Validate, TakesACountWhereGathersGoByIt) {
 TEST(Validate, StandsBeforeEveryRender) {
   const Scene scene;
   RenderSettings s;
-  s.photons_emitted = 0;
+  s.photons.emitted = 0;
   EXPECT_THROW(render(scene, s, {Film(1, 1), {}, 0.0, {}}), SettingError);
   EXPECT_THROW(bake_light_map(scene, s, {}, {}), SettingError);
   for (const auto& change : std::vector<std::function<void(RenderSettings&)>>{

@@ -128,7 +128,7 @@ void expect_combined_alike(Scene& scene, const RenderSettings& settings, const V
 
 RenderSettings settings_of(std::string_view type, KernelKind kernel, BoundaryRule boundary) {
   RenderSettings settings;
-  settings.photons_emitted = 2000;
+  settings.photons.emitted = 2000;
   settings.volume.planes = 50;
   settings.volume.choose(type);
   settings.volume.radius = type == "beam" ? 0.2f : 0.1f;
@@ -184,7 +184,7 @@ TEST(EyeRays, MayBeInDifferentMedia) {
 TEST(EyeRays, HaveDensityIntegralsOfTheirOwn) {
   const Scene scene = room(fog(Rgb(0.7f), Isotropic{}));
   RenderSettings settings = settings_of("photon-planes", KernelKind::epanechnikov, BoundaryRule::ends);
-  settings.volume_direct = DirectLight::equiangular;
+  settings.single_scattering.type = DirectLight::equiangular;
   expect_alike(scene, settings, Vec3(0.2f, 0.1f, 1.7f), Vec3(-1.0f, 0.3f, -2.0f));
 }
 

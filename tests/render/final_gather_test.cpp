@@ -49,10 +49,10 @@ Moments means(MeanOfPass&& mean_of_pass) {
 
 RenderSettings gathering(float radius) {
   RenderSettings settings;
-  settings.photons_emitted = 20'000;
+  settings.photons.emitted = 20'000;
   settings.surface.radius = settings.caustics.radius = radius;
   settings.radii = RadiusSchedule::constant;
-  settings.surface_indirect = IndirectLight::final_gather;
+  settings.indirect.type = IndirectLight::final_gather;
   settings.samples_per_pixel = 4;
   return settings;
 }
@@ -121,8 +121,8 @@ TEST(FinalGather, RaysBeyondTheNearestPhotonsEndInTheMap) {
 TEST(FinalGather, ByPhotonsAndIrradianceComputedBeforehandIsTheSameOnAnyNumberOfThreads) {
   const Scene scene = hollow_cube();
   RenderSettings settings = gathering(0.1f);
-  settings.gather_by = GatherBy::photons;
-  settings.end_irradiance = EndIrradiance::precomputed;
+  settings.indirect.rays_by = GatherBy::photons;
+  settings.indirect.irradiance = EndIrradiance::precomputed;
   settings.samples_per_pixel = 16;
   set_threads(1);
   const Pass one = render_photon_pass(scene, settings, 0);
@@ -140,7 +140,7 @@ TEST(FinalGather, ByPhotonsAndIrradianceComputedBeforehandIsTheSameOnAnyNumberOf
 TEST(FinalGather, CountsItsRays) {
   const Scene scene = hollow_cube();
   RenderSettings settings = gathering(1e-4f);
-  settings.gather_rays = 3;
+  settings.indirect.rays = 3;
   const RenderStatistics s = render_photon_pass(scene, settings, 0).statistics;
   EXPECT_GE(s.eye.gather_rays, s.eye.rays * 3);
   EXPECT_LE(s.eye.gather_rays, s.eye.rays * 3 + s.eye.rays / 10);  // a few are shorter than the radius

@@ -110,19 +110,19 @@ Scene camera_obscura() {
 /// Final gathering guided by photons.
 RenderSettings guided_gathering() {
   RenderSettings settings;
-  settings.photons_emitted = 100'000;
+  settings.photons.emitted = 100'000;
   settings.surface.mode = GatherMode::nearest;
   settings.surface.radius = settings.caustics.radius = 0.15f;
-  settings.surface_indirect = IndirectLight::final_gather;
-  settings.gather_by = GatherBy::photons;
-  settings.gather_rays = 1;
+  settings.indirect.type = IndirectLight::final_gather;
+  settings.indirect.rays_by = GatherBy::photons;
+  settings.indirect.rays = 1;
   return settings;
 }
 
 /// What the surface that a ray from vacuum meets sends back, green, one gathering ray a sample.
 Moments gathered(const Scene& scene, bool guided, const Ray& ray, int samples, EyeCounters& counters) {
   RenderSettings settings = guided_gathering();
-  if (!guided) settings.gather_by = GatherBy::material;
+  if (!guided) settings.indirect.rays_by = GatherBy::material;
   RenderStatistics statistics;
   const Estimators estimators = plan_estimators(scene, settings, 0);
   prepare_pass(scene, settings, estimators, {}, statistics);

@@ -32,7 +32,7 @@ Scene lit(const TriangleMesh& mesh, const Light& light) {
 
 RenderSettings fixed_radius(float radius, uint64_t photons) {
   RenderSettings settings;
-  settings.photons_emitted = photons;
+  settings.photons.emitted = photons;
   settings.surface.radius = settings.caustics.radius = radius;
   settings.surface.kernel = KernelKind::constant;
   settings.radii = RadiusSchedule::constant;
@@ -103,7 +103,7 @@ TEST(LightMap, IsOfTheOutwardSide) {
   const UvLayout layout = lay_out_light_map(scene, 0, 4);
   RenderSettings settings = fixed_radius(0.2f, 1000);
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays}) {
-    settings.surface_direct = direct;
+    settings.direct.type = direct;
     EXPECT_EQ(bake(scene, settings, layout, 1).power.mean(), 0.0);
   }
 }
@@ -174,7 +174,7 @@ TEST(LightMap, KnowsNoShadingNormals) {
   bent.normals.assign(4, Vec3(0.6f, 0.8f, 0.0f));
   const Scene flat_scene = lit(floor_mesh(), light), bent_scene = lit(bent, light);
   RenderSettings settings = fixed_radius(0.2f, 1000);
-  settings.surface_direct = DirectLight::photons;
+  settings.direct.type = DirectLight::photons;
   const auto power = [&](const Scene& scene) {
     return bake(scene, settings, lay_out_light_map(scene, 0, 4), 1).power.mean();
   };
@@ -185,7 +185,7 @@ TEST(LightMap, KnowsNoShadingNormals) {
 TEST(LightMap, IsTheSameOnAnyNumberOfThreads) {
   const Scene scene = cube_of_quads();
   RenderSettings settings = fixed_radius(0.1f, 5000);
-  settings.surface_indirect = IndirectLight::final_gather;
+  settings.indirect.type = IndirectLight::final_gather;
   settings.until.passes = 2;
   const UvLayout layout = lay_out_light_map(scene, 0, 40);
   std::vector<Image> maps;
@@ -201,8 +201,8 @@ TEST(LightMap, IsTheSameOnAnyNumberOfThreads) {
 TEST(LightMap, ThePowerHasItsStandardError) {
   const Scene scene = lit(floor_mesh(), PointLight{Vec3(0.2f, 0.5f, 0.0f), Rgb(1.0f, 2.0f, 3.0f)});
   RenderSettings settings = fixed_radius(0.2f, 300);
-  settings.surface_direct = DirectLight::photons;
-  settings.photon_sequence = PhotonSequence::random;
+  settings.direct.type = DirectLight::photons;
+  settings.photons.sequence = PhotonSequence::random;
   settings.until.passes = 8;
   const UvLayout layout = lay_out_light_map(scene, 0, 4);
   ChannelMoments power, squared_error;

@@ -43,14 +43,14 @@ Scene fog_smoke_and_glass() {
 
 RenderSettings in_one_piece() {
   RenderSettings settings;
-  settings.photons_emitted = kPhotons;
+  settings.photons.emitted = kPhotons;
   settings.volume.radius = settings.surface.radius = settings.caustics.radius = 0.15f;
   settings.samples_per_pixel = 2;
   return settings;
 }
 
 RenderSettings in_blocks(RenderSettings settings) {
-  settings.photons_block = kPhotonsOfBlock;
+  settings.photons.block = kPhotonsOfBlock;
   return settings;
 }
 
@@ -78,18 +78,18 @@ const Way kWays[] = {
     {"points, a ball at a time", [](S& s) { s.volume.boundary = BoundaryRule::corrected; }},
     {"points, nothing at borders", [](S& s) { s.volume.boundary = BoundaryRule::none; }},
     {"points, density at the photon", [](S& s) { s.volume.form = VolumeForm::density_at_photon; }},
-    {"points, and shadow rays of the march", [](S& s) { s.volume_direct = DirectLight::shadow_rays; }},
+    {"points, and shadow rays of the march", [](S& s) { s.single_scattering.type = DirectLight::shadow_rays; }},
     {"beside rays", [](S& s) { s.volume.choose("beam"); }},
     {"beside rays, and equiangular light",
-     [](S& s) { s.volume.choose("beam"), s.volume_direct = DirectLight::equiangular; }},
+     [](S& s) { s.volume.choose("beam"), s.single_scattering.type = DirectLight::equiangular; }},
     {"photon beams", [](S& s) { s.volume.choose("photon-beams"); }},
     {"long beams", [](S& s) { s.volume.choose("photon-beams"), s.volume.length = BeamLength::long_beams; }},
-    {"surfaces by photons alone", [](S& s) { s.surface_direct = DirectLight::photons; }},
+    {"surfaces by photons alone", [](S& s) { s.direct.type = DirectLight::photons; }},
     {"surfaces, corrected at borders", [](S& s) { s.surface.boundary = BoundaryRule::corrected; }},
     {"a kernel of order 4", [](S& s) { s.surface.kernel = s.volume.kernel = KernelKind::order_4; }},
-    {"final gathering", [](S& s) { s.surface_indirect = IndirectLight::final_gather; }},
-    {"importance", [](S& s) { s.guide.importons = 500, s.guide.scatter = true; }},
-    {"random numbers", [](S& s) { s.photon_sequence = PhotonSequence::random; }},
+    {"final gathering", [](S& s) { s.indirect.type = IndirectLight::final_gather; }},
+    {"importance", [](S& s) { s.importance.importons = 500, s.importance.scatter = true; }},
+    {"random numbers", [](S& s) { s.photons.sequence = PhotonSequence::random; }},
 };
 
 // Light and what corrects kernels, in a later pass, whose radii have shrunk.
@@ -114,9 +114,9 @@ TEST(PhotonBlocks, MakeThePictureOfThePass) {
 TEST(PhotonBlocks, MayBeOfFewPhotons) {
   const Scene scene = fog_smoke_and_glass();
   RenderSettings settings = in_one_piece();
-  settings.photons_emitted = 60;
+  settings.photons.emitted = 60;
   const Pass whole = render_photon_pass(scene, settings, 0);
-  settings.photons_block = 1;
+  settings.photons.block = 1;
   EXPECT_EQ(block_count(settings), 60u);
   EXPECT_LT(apart(whole.image, render_photon_pass(scene, settings, 0).image), kRounding);
 }
@@ -125,8 +125,8 @@ TEST(PhotonBlocks, HaveAllPhotonsOfThePassOnce) {
   for (const uint64_t photons : {1u, 5u, 600u, 601u, 4001u})
     for (const uint64_t most : {1u, 7u, 600u, 5000u}) {
       RenderSettings settings;
-      settings.photons_emitted = photons;
-      settings.photons_block = most;
+      settings.photons.emitted = photons;
+      settings.photons.block = most;
       const uint64_t blocks = block_count(settings);
       EXPECT_EQ(blocks, (photons + most - 1) / most);
       uint64_t next = 0;
@@ -145,7 +145,7 @@ TEST(PhotonBlocks, AreTheWholePassWhereNoneAreAskedFor) {
   RenderSettings settings = in_one_piece();
   EXPECT_EQ(block_count(settings), 1u);
   EXPECT_EQ(photon_block(settings, 0).count, kPhotons);
-  settings.photons_emitted = 0;  // until maps are full
+  settings.photons.emitted = 0;  // until maps are full
   EXPECT_EQ(photon_block(settings, 0).count, 0u);
   settings = in_blocks(in_one_piece());
   settings.integrator = Integrator::path;
@@ -189,7 +189,7 @@ TEST(PhotonBlocks, MakeTheLightMapOfThePass) {
   const UvLayout layout = lay_out_light_map(scene, 3, 16);  // of the floor
   for (const IndirectLight indirect : {IndirectLight::photons, IndirectLight::final_gather}) {
     RenderSettings settings = in_one_piece();
-    settings.surface_indirect = indirect;
+    settings.indirect.type = indirect;
     ASSERT_NO_THROW(validate_light_map(in_blocks(settings), facts_of(scene)));
     const Pass whole = light_map_pass(scene, settings, layout, 0);
     const Pass blocks = light_map_pass(scene, in_blocks(settings), layout, 0);

@@ -30,7 +30,7 @@ Moments pass_means(const Scene& scene, const RenderSettings& settings, int passe
 
 RenderSettings settings_of(uint64_t photons, float radius) {
   RenderSettings settings;
-  settings.photons_emitted = photons;
+  settings.photons.emitted = photons;
   settings.volume.radius = radius;
   settings.surface.radius = radius;
   settings.radii = RadiusSchedule::constant;
@@ -125,7 +125,7 @@ TEST(PhotonPass, FogDimsBeforeAndBehindThePhotons) {
   const Scene scene = cone_in_fog(1e-7f);  // too faint to send photons of its own, bright against what the fog scatters
   for (const DirectLight direct : {DirectLight::photons, DirectLight::shadow_rays, DirectLight::equiangular})
     for (auto [name, settings] : volume_estimates(settings_of(1000, 0.05f))) {
-      settings.volume_direct = direct;
+      settings.single_scattering.type = direct;
       const Image image = render_photon_pass(scene, settings, 0).image;
       for (const Rgb& pixel : image.pixels)
         for (int c = 0; c < 3; ++c) {
@@ -156,9 +156,9 @@ TEST(PhotonPass, TellsWhichMapsDoNotShowTheirBias) {
     settings.surface.mode = mode;
     EXPECT_TRUE(maps_of_unseen_bias(both, settings).empty());
   }
-  settings.surface_indirect = IndirectLight::final_gather;
+  settings.indirect.type = IndirectLight::final_gather;
   EXPECT_TRUE(maps_of_unseen_bias(both, settings).empty());
-  settings.end_irradiance = EndIrradiance::precomputed;  // a number at a point, which does not tell its correction
+  settings.indirect.irradiance = EndIrradiance::precomputed;  // a number at a point, which does not tell its correction
   EXPECT_EQ(maps_of_unseen_bias(both, settings), std::vector<std::string>{"surface"});
   EXPECT_TRUE(gathers(both, settings));
   settings.integrator = Integrator::path;
@@ -254,7 +254,7 @@ TEST(PhotonPass, PhotonsAreRandomWhereTheyMustBeIndependent) {
     RenderSettings settings = settings_of(1000, 0.5f);
     change(settings);
     const Pass even = render_photon_pass(scene, settings, 0);
-    settings.photon_sequence = PhotonSequence::random;
+    settings.photons.sequence = PhotonSequence::random;
     return even.image.pixels != render_photon_pass(scene, settings, 0).image.pixels;
   };
   EXPECT_TRUE(differs([](RenderSettings&) {}));
@@ -262,13 +262,13 @@ TEST(PhotonPass, PhotonsAreRandomWhereTheyMustBeIndependent) {
   EXPECT_FALSE(differs([](RenderSettings& s) { s.surface.mode = GatherMode::nearest; }));
   EXPECT_TRUE(differs([](RenderSettings& s) { s.caustics.mode = GatherMode::nearest; })) << "there is no such map";
   EXPECT_FALSE(differs([](RenderSettings& s) {
-    s.surface_indirect = IndirectLight::final_gather;
+    s.indirect.type = IndirectLight::final_gather;
     s.caustics.mode = GatherMode::nearest;
   }));
-  EXPECT_FALSE(differs([](RenderSettings& s) { s.guide.importons = 100; }));
+  EXPECT_FALSE(differs([](RenderSettings& s) { s.importance.importons = 100; }));
   EXPECT_FALSE(differs([](RenderSettings& s) {
-    s.surface_indirect = IndirectLight::final_gather;
-    s.end_irradiance = EndIrradiance::precomputed;
+    s.indirect.type = IndirectLight::final_gather;
+    s.indirect.irradiance = EndIrradiance::precomputed;
   }));
 }
 
@@ -281,7 +281,7 @@ TEST(PhotonPass, PointsOfASequenceHaveLessNoiseThanRandomNumbers) {
   settings.samples_per_pixel = 16;  // what lies within a pixel varies, too
   settings.volume.choose("photon-beams");
   const double even = noise_of(scene, settings);
-  settings.photon_sequence = PhotonSequence::random;
+  settings.photons.sequence = PhotonSequence::random;
   EXPECT_GT(noise_of(scene, settings), 1.5 * even);
 }
 
@@ -291,7 +291,7 @@ TEST(PhotonPass, ShadowRaysToEvenPlacesHaveLessNoise) {
   scene.camera.filter.radius = 0.01f;  // what lies within a pixel does not vary
   RenderSettings settings = settings_of(1, 0.1f);
   const Moments one = pass_means(scene, settings, 400);
-  settings.surface_direct_samples = 8;
+  settings.direct.samples = 8;
   const Moments eight = pass_means(scene, settings, 400);
   expect_same_means({one}, {eight}, 1e-6, "even places");
   EXPECT_GT(one.variance(), 3.0 * 8.0 * eight.variance());
@@ -311,7 +311,7 @@ TEST(PhotonPass, SeveralShadowRaysBringTheSameLight) {
   const auto shadow_rays = [&] { return render_photon_pass(scene, settings, 0).statistics.eye.shadow_rays; };
   const uint64_t rays = shadow_rays();  // one to each of six lights
   const Moments one = pass_means(scene, settings, 300);
-  settings.surface_direct_samples = 5;
+  settings.direct.samples = 5;
   expect_same_means({one}, {pass_means(scene, settings, 300)}, 1e-6, "five rays");
   EXPECT_EQ(shadow_rays() * 6, rays * (5 * 5 + 1));
 }
@@ -325,7 +325,7 @@ TEST(PhotonPass, PreparesSumsByNodesForDiffuseSurfaces) {
       RenderSettings settings = settings_of(20'000, 0.5f);
       settings.surface.mode = GatherMode::nearest;
       settings.surface.count = count;
-      settings.surface_direct = DirectLight::photons;
+      settings.direct.type = DirectLight::photons;
       return render_photon_pass(scene, settings, 0).statistics.photon_map_bytes;
     };
     return bytes(NearestMap::kMany) - bytes(NearestMap::kMany - 1);

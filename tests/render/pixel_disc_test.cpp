@@ -122,8 +122,8 @@ Scene lit_floor(const Light& light) {
 RenderSettings per_pixel(uint64_t photons) {
   RenderSettings settings;
   settings.radii = RadiusSchedule::per_pixel;
-  settings.surface_direct = DirectLight::photons;
-  settings.photons_emitted = photons;
+  settings.direct.type = DirectLight::photons;
+  settings.photons.emitted = photons;
   settings.until.passes = 12;
   settings.surface.radius = 0.15f;
   settings.surface.kernel = KernelKind::constant;

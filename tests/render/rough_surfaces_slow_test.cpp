@@ -28,10 +28,10 @@ const Material& material_of_sheet(const Scene& scene) { return scene.materials[s
 
 RenderSettings settings_of(DirectLight direct) {
   RenderSettings settings;
-  settings.photons_emitted = 20000;
+  settings.photons.emitted = 20000;
   settings.surface.radius = 0.4f;
   settings.radii = RadiusSchedule::constant;
-  settings.surface_direct = direct;
+  settings.direct.type = direct;
   settings.samples_per_pixel = direct == DirectLight::photons ? 1 : 60;
   return settings;
 }

@@ -160,9 +160,9 @@ TEST(ShadingNormals, ADiffusePlateIsAsBrightAsItsShadingCosine) {
                                            {Integrator::photon, DirectLight::photons}}) {
     RenderSettings settings;
     settings.integrator = integrator;
-    settings.surface_direct = direct;
+    settings.direct.type = direct;
     settings.surface.radius = 0.1f;
-    settings.photons_emitted = 50000;
+    settings.photons.emitted = 50000;
     const bool by_photons = direct == DirectLight::photons;
     Moments mean;
     for (int pass = 0; pass < (by_photons ? 12 : 2); ++pass) {

@@ -26,7 +26,7 @@ ViewLayerSet all_layers() {
 RenderSettings few_photons(Integrator integrator, const ViewLayerSet& layers) {
   RenderSettings settings;
   settings.integrator = integrator;
-  settings.photons_emitted = 500;
+  settings.photons.emitted = 500;
   settings.samples_per_pixel = 3;
   settings.layers = layers;
   return settings;

@@ -75,9 +75,9 @@ std::string until_text(const StopRule& until) {
 }
 
 std::string photons_text(const RenderSettings& settings) {
-  const std::string stored = fmt::format("until a map holds {}", settings.photons_stored);
-  if (settings.photons_emitted == 0) return "photons " + stored;
-  return fmt::format("{} photons{}", settings.photons_emitted, settings.photons_stored > 0 ? " or " + stored : "");
+  const std::string stored = fmt::format("until a map holds {}", settings.photons.stored);
+  if (settings.photons.emitted == 0) return "photons " + stored;
+  return fmt::format("{} photons{}", settings.photons.emitted, settings.photons.stored > 0 ? " or " + stored : "");
 }
 
 /// "0.018 m in smoke, 0.05 m on surfaces": of what scatters.
@@ -111,7 +111,7 @@ void print_effort(const RenderJob& job) {
     return;
   }
   fmt::print("gather radii of the first pass: {}\nmaps of a {}: about {:.3g} MiB while they are made\n",
-             radii_text(job.scene, settings), settings.photons_block > 0 ? "block" : "pass",
+             radii_text(job.scene, settings), settings.photons.block > 0 ? "block" : "pass",
              bytes_of_maps(job.scene, settings, PassOf::picture) / (1024.0 * 1024.0));
 }
 

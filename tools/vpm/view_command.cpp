@@ -86,7 +86,7 @@ class EarlyFiles {
 void show_first_picture(const ViewOptions& options, const Outputs& outputs, const RenderJob& job, EarlyFiles& early) {
   RenderSettings settings = job.settings;
   settings.until = {.passes = 1};
-  settings.photons_emitted = 50'000;
+  settings.photons.emitted = 50'000;
   const double seconds = job.settings.until.seconds;
   const double end = seconds > 0.0 ? kFirstPictureShare * seconds : double{kInfinity};
   std::optional<Image> first;

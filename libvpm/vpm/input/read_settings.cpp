@@ -91,7 +91,7 @@ bool read_next(SettingTables& tables, ReplacedKeys& replaced, LeftOut left_out, 
 /// The pilot that chooses how many photons a pass has knows passes in one piece: a number for blocks, which are taken
 /// where memory ends, is the user's.
 void refuse_blocks_of_chosen_photons(const RenderSettings& s, const AutomaticSettings& automatic) {
-  if (s.integrator == Integrator::photon && s.photons_block > 0 && automatic.has("integrator.photons.emitted"))
+  if (s.integrator == Integrator::photon && s.photons.block > 0 && automatic.has("integrator.photons.emitted"))
     throw SettingError("integrator.photons.block",
                        "a pass whose number of photons is to be chosen is not made in blocks",
                        "give 'emitted' a number, or leave out 'block'");

@@ -42,6 +42,41 @@ enum class EndIrradiance { estimate, precomputed };
 /// What estimates radiance: photon maps, the unbiased reference path tracer, or all techniques combined.
 enum class Integrator { photon, path, combined };
 
+/// Photons, or light sub-paths, of a pass.
+struct PhotonSettings {
+  uint64_t emitted = 200'000;  // at the most; 0: no limit, `stored` decides
+  uint64_t stored = 0;  // tracing stops once the volume maps together or the surface map hold that many; 0: no limit
+  uint64_t block = 0;   // > 0: the most that are traced and gathered at a time, see mean_of_blocks(); 0: all
+  PhotonSequence sequence = PhotonSequence::sobol;  // where nothing asks for random ones, see trace_pass()
+  uint32_t in_cube = 0;  // > 0: the most that travel into one octant of directions, in a cube whose edges are half a
+                         // radius long, see control_density()
+};
+
+/// Light that media scatter once.
+struct SingleScatteringSettings {
+  DirectLight type = DirectLight::photons;
+  int samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
+};
+
+/// Light on surfaces that has not scattered yet.
+struct DirectSettings {
+  DirectLight type = DirectLight::shadow_rays;
+  int samples = 1;  // shadow rays to each light that has an area or a solid angle, >= 1
+};
+
+/// Light on surfaces that surfaces have scattered before.
+struct IndirectSettings {
+  IndirectLight type = IndirectLight::photons;
+  int rays = 8;  // of final gathering, at each point of a surface that the eye sees, >= 1
+  GatherBy rays_by = GatherBy::material;
+  EndIrradiance irradiance = EndIrradiance::estimate;
+};
+
+/// The caustic map of final gathering.
+struct CausticMapSettings : AskedGather {
+  uint64_t emitted = 0;  // photons per pass that are aimed at mirrors and glass; 0: it takes what the others bring
+};
+
 /// The combined estimator: which techniques it uses, and how these share the paths that several of them find.
 struct CombinedSettings {
   TechniqueSet techniques;
@@ -53,42 +88,28 @@ struct RenderSettings : PassSettings {
   Integrator integrator = Integrator::photon;
   StopRule until;  // when the render ends
 
-  uint64_t photons_emitted = 200'000;  // per pass, at the most; 0: no limit, photons_stored decides
-  uint64_t photons_stored =
-      0;  // per pass: tracing stops once the volume maps together or the surface map hold that many; 0: no limit
-  uint64_t photons_block = 0;  // > 0: the most photons of a pass that are traced and gathered at a time, see
-                               // mean_of_blocks(); 0: all
-  PhotonSequence photon_sequence = PhotonSequence::sobol;  // where nothing asks for random ones, see trace_pass()
-  uint32_t photons_in_cube = 0;  // > 0: the most photons that travel into one octant of directions, in a cube
-                                 // whose edges are half a radius long, see control_density()
-  int max_events = 100'000;      // of one photon or eye path, a guard against endless paths; what it cuts is counted
+  PhotonSettings photons;
+  int max_events = 100'000;  // of one photon or eye path, a guard against endless paths; what it cuts is counted
 
-  GuideSettings guide;  // of photons, by importance
+  GuideSettings importance;  // by which photons are guided
 
   CombinedSettings combined;
 
   DistanceSettings distance;            // how photons fly
   TransmittanceSettings transmittance;  // towards lights
 
-  VolumeSettings volume;          // volumetric radiance estimate
-  AskedGather surface;            // surface radiance estimate
-  AskedGather caustics;           // estimate from the caustic map, under final gathering
-  uint64_t caustics_emitted = 0;  // photons per pass that are aimed at mirrors and glass, for that map; 0: it takes
-                                  // what the other photons bring
-  RadiusSchedule radii = RadiusSchedule::per_pass;   // of maps in radius mode
-  DirectLight volume_direct = DirectLight::photons;  // single scattering
-  int direct_samples = 8;  // pairs of shadow rays on each segment of an eye ray, where it is equiangular, >= 1
-  DirectLight surface_direct = DirectLight::shadow_rays;
-  int surface_direct_samples = 1;  // of these, for each light that has an area or a solid angle, >= 1
-  IndirectLight surface_indirect = IndirectLight::photons;
-  int gather_rays = 8;  // of final gathering, at each point of a surface that the eye sees, >= 1
-  GatherBy gather_by = GatherBy::material;
-  EndIrradiance end_irradiance = EndIrradiance::estimate;
+  VolumeSettings volume;  // volumetric radiance estimate
+  AskedGather surface;    // surface radiance estimate
+  CausticMapSettings caustics;
+  RadiusSchedule radii = RadiusSchedule::per_pass;  // of maps in radius mode
+  SingleScatteringSettings single_scattering;
+  DirectSettings direct;
+  IndirectSettings indirect;
   float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0
 
-  bool gathers_finally() const { return surface_indirect == IndirectLight::final_gather; }
+  bool gathers_finally() const { return indirect.type == IndirectLight::final_gather; }
   /// Photons of a pass that are aimed at mirrors and glass.
-  uint64_t aimed_photons() const { return gathers_finally() ? caustics_emitted : 0; }
+  uint64_t aimed_photons() const { return gathers_finally() ? caustics.emitted : 0; }
 };
 
 }  // namespace vpm

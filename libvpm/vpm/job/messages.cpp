@@ -22,14 +22,14 @@ bool planes_alone(const RenderSettings& settings) {
 /// there may be no other.
 void warn_of_empty_maps(const SceneFacts& shown, const RenderSettings& settings, const RenderStatistics& s,
                         std::vector<std::string>& warnings) {
-  const bool gathers = settings.surface_indirect == IndirectLight::final_gather;
+  const bool gathers = settings.indirect.type == IndirectLight::final_gather;
   const bool flights = settings.volume.info().flights && !planes_alone(settings);
-  if (shown.scattering_media && settings.volume_direct == DirectLight::photons &&
+  if (shown.scattering_media && settings.single_scattering.type == DirectLight::photons &&
       (flights ? s.flights : s.volume_photons) == 0)
     warnings.emplace_back(flights ? "there are no photon beams: no photon flew through a medium"
                                   : "the volume photon map is empty: no photon scattered in a medium");
   if (shown.rough_surfaces && s.surface_photons == 0 && s.eye.surface_queries > 0 &&
-      (gathers || settings.surface_direct == DirectLight::photons))
+      (gathers || settings.direct.type == DirectLight::photons))
     warnings.emplace_back("the surface photon map is empty: no photon to store met a diffuse or rough surface");
 }
 

@@ -111,13 +111,13 @@ Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, co
   const double seconds = settings.until.seconds;
   RenderSettings tried = settings;
   const auto cost_of = [&](uint64_t photons) {
-    tried.photons_emitted = photons;
+    tried.photons.emitted = photons;
     choose_radii(scene, automatic, densities, tried);
     return time_pass(scene, tried, limit);
   };
   const ChosenCount chosen =
       (crosses_flights(settings) ? choose_count_of_flights : choose_count_of_points)(kPassesShare * seconds, cost_of);
-  settings.photons_emitted = chosen.count;
+  settings.photons.emitted = chosen.count;
   std::string reason = chosen.reason;
   if (settings.volume.info().planes && settings.integrator == Integrator::photon)
     reason += fmt::format(
@@ -156,7 +156,7 @@ std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSett
                                          RenderSettings& settings) {
   RenderSettings unhurried = settings;
   unhurried.until = {};
-  const uint64_t emitted = settings.photons_emitted;
+  const uint64_t emitted = settings.photons.emitted;
   const uint64_t photons = emitted > 0 ? std::min(emitted, kPhotonsOfDefaults) : kPhotonsOfDefaults;
   const auto densities = densities_by(photons, scene, automatic, unhurried);
   return densities ? choose_radii(scene, automatic, *densities, settings) : std::vector<Choice>();

@@ -49,7 +49,7 @@ std::string photons_text(double photons) {
 
 /// What memory holds at a time: a block of a pass, if it has blocks.
 RenderSettings at_a_time(RenderSettings settings) {
-  settings.photons_emitted = photon_block(settings, 0).count;
+  settings.photons.emitted = photon_block(settings, 0).count;
   return settings;
 }
 
@@ -67,11 +67,11 @@ double bytes_of_sub_path(const Scene& scene, const RenderSettings& settings) {
   constexpr uint64_t kFew = 1000;
   const RenderSettings few = with_light_paths(settings, kFew);
   const CombinedPass pass(scene, few, 0);
-  return 2.0 * static_cast<double>(pass.statistics().photon_map_bytes) / static_cast<double>(few.photons_emitted);
+  return 2.0 * static_cast<double>(pass.statistics().photon_map_bytes) / static_cast<double>(few.photons.emitted);
 }
 
 void check_memory_of_sub_paths(const Scene& scene, const RenderSettings& settings, double memory) {
-  const auto paths = static_cast<double>(settings.photons_emitted);
+  const auto paths = static_cast<double>(settings.photons.emitted);
   const double each = bytes_of_sub_path(scene, settings);
   if (paths * each <= memory) return;
   throw InputError(fmt::format(
@@ -85,8 +85,8 @@ RenderSettings few_photons(const RenderSettings& settings) {
   constexpr uint64_t kFew = 1000;
   const bool combined = settings.integrator == Integrator::combined;
   RenderSettings few = combined ? with_light_paths(settings, kFew) : pilot_settings(settings, kFew);
-  few.caustics_emitted = std::min(few.aimed_photons(), kFew);
-  few.guide.importons = 0;
+  few.caustics.emitted = std::min(few.aimed_photons(), kFew);
+  few.importance.importons = 0;
   return few;
 }
 
@@ -136,7 +136,7 @@ std::string wide_gather_text(const Scene& scene, const RenderSettings& settings)
   const RenderSettings few = few_photons(settings);
   const RaysOfPass pass = rays_of_pass(scene, few, 0);
   const RenderStatistics& s = pass.statistics;
-  double times = static_cast<double>(settings.photons_emitted) / static_cast<double>(few.photons_emitted);
+  double times = static_cast<double>(settings.photons.emitted) / static_cast<double>(few.photons.emitted);
   if (settings.integrator == Integrator::photon) {
     const auto emitted = static_cast<double>(std::max<uint64_t>(1, s.ledger.emitted_count));
     times = photons_of_pass(settings, static_cast<double>(std::max(s.volume_photons, s.surface_photons)) / emitted) /
@@ -153,7 +153,7 @@ std::string wide_gather_text(const Scene& scene, const RenderSettings& settings)
 double bytes_of_maps(const Scene& scene, const RenderSettings& settings, PassOf of) {
   if (settings.integrator == Integrator::path) return 0.0;
   if (settings.integrator == Integrator::combined)
-    return static_cast<double>(settings.photons_emitted) * bytes_of_sub_path(scene, settings);
+    return static_cast<double>(settings.photons.emitted) * bytes_of_sub_path(scene, settings);
   const RenderSettings held = at_a_time(settings);
   const PassCost cost = time_photons(scene, held, of, 0.1);
   return room_of(cost, held, photons_of_pass(held, cost.stored_per_photon)).bytes;
@@ -164,7 +164,7 @@ void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of,
   if (settings.integrator == Integrator::combined) return check_memory_of_sub_paths(scene, settings, memory);
   const double each = settings.volume.info().flights ? kFlightBytes + kBeamBytes : kMapBytes;
   const RenderSettings held = at_a_time(settings);
-  const auto asked = static_cast<double>(std::max({held.photons_emitted, held.photons_stored, held.aimed_photons()}));
+  const auto asked = static_cast<double>(std::max({held.photons.emitted, held.photons.stored, held.aimed_photons()}));
   if (asked * each <= kMapBytes * static_cast<double>(kSafePhotons)) return;
   const PassCost cost = time_photons(scene, held, of, 0.1);
   const double photons = photons_of_pass(held, cost.stored_per_photon), stored = cost.stored(photons);
@@ -172,7 +172,7 @@ void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of,
   const double fits = std::min(memory / room.bytes, kMostIndexed / room.numbers);
   if (fits >= 1.0) return;
   const double flights = photons * cost.flights_per_photon;
-  const bool by_blocks = settings.photons_block > 0;
+  const bool by_blocks = settings.photons.block > 0;
   const char* const key = by_blocks                             ? "integrator.photons.block"
                           : cost.stored_caustics > 0.5 * stored ? "integrator.caustics.emitted"
                                                                 : "integrator.photons.emitted";

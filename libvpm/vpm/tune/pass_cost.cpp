@@ -93,21 +93,21 @@ double seconds_of_photons(const RenderSettings& settings, const RenderStatistics
 PassCost time_combined_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
   constexpr uint64_t kFirst = 1000;
   constexpr double kMostBytes = 2e8;  // of what they store
-  const auto all = static_cast<double>(settings.photons_emitted);
-  RenderSettings pilot = with_light_paths(pilot_settings(settings, settings.photons_emitted), kFirst);
+  const auto all = static_cast<double>(settings.photons.emitted);
+  RenderSettings pilot = with_light_paths(pilot_settings(settings, settings.photons.emitted), kFirst);
   RaysOfPass ready = rays_of_pass(scene, pilot, 0);
   const auto each = [&] {
-    return seconds_of_photons(pilot, ready.statistics) / static_cast<double>(pilot.photons_emitted);
+    return seconds_of_photons(pilot, ready.statistics) / static_cast<double>(pilot.photons.emitted);
   };
   const double bytes =
-      static_cast<double>(ready.statistics.photon_map_bytes) / static_cast<double>(pilot.photons_emitted);
+      static_cast<double>(ready.statistics.photon_map_bytes) / static_cast<double>(pilot.photons.emitted);
   const double affordable = std::min({all, 0.5 * seconds / std::max(1e-9, each()), kMostBytes / std::max(1.0, bytes)});
   if (affordable > 2.0 * kFirst) {
-    pilot = with_light_paths(pilot_settings(settings, settings.photons_emitted), static_cast<uint64_t>(affordable));
+    pilot = with_light_paths(pilot_settings(settings, settings.photons.emitted), static_cast<uint64_t>(affordable));
     ready = rays_of_pass(scene, pilot, 0);
   }
   const EyeCost eye = time_eye_pass(scene, pilot, ready.radiance, 0.5 * seconds);
-  const auto paths = static_cast<double>(pilot.photons_emitted);
+  const auto paths = static_cast<double>(pilot.photons.emitted);
   const RenderStatistics& s = ready.statistics;
   return {.photon = each(),
           .eye = with_more_photons(eye, all / paths),
@@ -132,8 +132,8 @@ ReadyPass make_ready(const Scene& scene, const RenderSettings& settings, PassOf 
 /// A share of a pass's photons, and of those that are aimed for caustics, one of either at the least.
 RenderSettings part_of(RenderSettings pass, double share, double photons) {
   const auto part = [&](double count) { return static_cast<uint64_t>(std::max(1.0, std::round(share * count))); };
-  pass.photons_emitted = part(photons);
-  pass.caustics_emitted = std::min(pass.aimed_photons(), part(static_cast<double>(pass.aimed_photons())));
+  pass.photons.emitted = part(photons);
+  pass.caustics.emitted = std::min(pass.aimed_photons(), part(static_cast<double>(pass.aimed_photons())));
   return pass;
 }
 
@@ -146,12 +146,12 @@ double caustic_seconds(const ReadyPass& ready) {
 /// Makes as large a part of a pass ready as that many seconds allow, a thousand of its photons at the least.
 ReadyPass make_ready_within(const Scene& scene, const RenderSettings& settings, PassOf of, double seconds) {
   constexpr double kFewest = 1000.0, kMost = 0x1p40;
-  const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
-  const auto stored = static_cast<double>(pilot.photons_stored);  // of either kind at the most
+  const RenderSettings pilot = pilot_settings(settings, settings.photons.emitted);
+  const auto stored = static_cast<double>(pilot.photons.stored);  // of either kind at the most
   const auto caustics = static_cast<double>(settings.aimed_photons());
   // Where nothing but the stored photons is limited, each is taken to be stored once: the share may end above 1.
   const double photons = photons_of_pass(settings, 1.0);
-  const double limit = settings.photons_emitted > 0 ? static_cast<double>(settings.photons_emitted) : kMost;
+  const double limit = settings.photons.emitted > 0 ? static_cast<double>(settings.photons.emitted) : kMost;
   const double largest = std::min(std::min(limit, kMost) / photons, caustics > stored ? stored / caustics : kInfinity);
   const Stopwatch tracing;
   double counted = 0.0;
@@ -162,7 +162,7 @@ ReadyPass make_ready_within(const Scene& scene, const RenderSettings& settings, 
     const double aimed = caustic_seconds(ready), taken = seconds_of_photons(pilot, s) + aimed;
     counted += taken;
     const double left = seconds - (goes_by_clock(pilot) ? tracing.seconds() : counted);
-    const bool stored_all = std::max(s.volume_photons, s.surface_photons) >= pilot.photons_stored;
+    const bool stored_all = std::max(s.volume_photons, s.surface_photons) >= pilot.photons.stored;
     const bool traced_none = s.ledger.emitted_count == 0;  // there is no map
     if (share == largest || stored_all || traced_none || left < 2.0 * taken) return ready;
     share *= std::clamp(0.5 * left / std::max(taken, 1e-6), 2.0, 16.0);
@@ -201,7 +201,7 @@ PassCost time_photons(const Scene& scene, const RenderSettings& settings, PassOf
 
 PassCost time_pass(const Scene& scene, const RenderSettings& settings, double seconds) {
   if (settings.integrator == Integrator::path) {
-    const RenderSettings pilot = pilot_settings(settings, settings.photons_emitted);
+    const RenderSettings pilot = pilot_settings(settings, settings.photons.emitted);
     return {.eye = time_eye_pass(scene, pilot, rays_of_pass(scene, pilot, 0).radiance, seconds).seconds};
   }
   if (settings.integrator == Integrator::combined) return time_combined_pass(scene, settings, seconds);
@@ -214,7 +214,8 @@ PassCost time_pass(const Scene& scene, const RenderSettings& settings, double se
   const auto found = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons + s.flights);
   const double photons = photons_of_pass(settings, cost.stored_per_photon);
   const double whole = cost.stored(photons) + photons * cost.flights_per_photon;
-  const double guide = goes_by_clock(settings) ? s.guide_seconds : counted_seconds_of_guide(settings.guide.importons);
+  const double guide =
+      goes_by_clock(settings) ? s.guide_seconds : counted_seconds_of_guide(settings.importance.importons);
   const auto blocks = static_cast<double>(block_count(settings));
   const double tracings = tracings_of_pass(scene, settings);
   cost.photon *= tracings;  // at the most: what is sorted and stored is so once

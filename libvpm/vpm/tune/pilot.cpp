@@ -238,8 +238,8 @@ Ledger flights_of(const Scene& scene, const RenderSettings& settings) {
   CollisionCount collisions;
   TraceSettings trace;
   trace.seed = settings.seed;
-  trace.emitted = settings.photons_emitted;
-  trace.stored = settings.photons_stored;
+  trace.emitted = settings.photons.emitted;
+  trace.stored = settings.photons.stored;
   trace.max_events = settings.max_events;
   const bool maps_density =
       settings.integrator == Integrator::photon && settings.volume.form == VolumeForm::density_at_query;
@@ -268,8 +268,8 @@ uint64_t in_a_hurry(uint64_t photons, const RenderSettings& settings) {
 
 RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
   settings.seed = ~settings.seed;
-  settings.photons_emitted = photons;
-  settings.photons_stored = in_a_hurry(kStored, settings);
+  settings.photons.emitted = photons;
+  settings.photons.stored = in_a_hurry(kStored, settings);
   settings.radii = RadiusSchedule::constant;
   return settings;
 }
@@ -291,7 +291,7 @@ std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSetting
 
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings, uint64_t photons) {
   RenderSettings pilot = pilot_settings(settings, photons);
-  pilot.caustics_emitted = std::min(pilot.aimed_photons(), pilot.photons_emitted);
+  pilot.caustics.emitted = std::min(pilot.aimed_photons(), pilot.photons.emitted);
   // Collisions end the tracing where they are many; flights do not.
   if (!pilot.volume.info().collisions) pilot.volume.choose("photon-beams");
   const PilotPass pass = trace(scene, pilot);
@@ -319,11 +319,11 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings, u
 }
 
 double photons_of_pass(const RenderSettings& settings, double stored_per_photon) {
-  const auto limit = static_cast<double>(settings.photons_emitted);
-  const bool fills_maps = settings.integrator == Integrator::photon && settings.photons_stored > 0;
+  const auto limit = static_cast<double>(settings.photons.emitted);
+  const bool fills_maps = settings.integrator == Integrator::photon && settings.photons.stored > 0;
   if (!fills_maps || stored_per_photon == 0.0) return limit;
-  const double full = static_cast<double>(settings.photons_stored) / stored_per_photon;
-  return settings.photons_emitted == 0 ? full : std::min(limit, full);
+  const double full = static_cast<double>(settings.photons.stored) / stored_per_photon;
+  return settings.photons.emitted == 0 ? full : std::min(limit, full);
 }
 
 }  // namespace vpm

@@ -47,11 +47,11 @@ SmallPasses plan_small(const Scene& scene, const RenderSettings& settings, const
   small.settings.seed = ~settings.seed;
   small.settings.radii = RadiusSchedule::constant;
   const auto part = [&](double count) { return static_cast<uint64_t>(std::ceil(small.share * count)); };
-  small.settings.photons_emitted = part(photons);
-  small.paths_of_shares = settings.photons_emitted;
-  small.settings.photons_stored = 0;
-  small.settings.caustics_emitted = part(static_cast<double>(settings.caustics_emitted));
-  small.settings.guide.importons = part(static_cast<double>(settings.guide.importons));
+  small.settings.photons.emitted = part(photons);
+  small.paths_of_shares = settings.photons.emitted;
+  small.settings.photons.stored = 0;
+  small.settings.caustics.emitted = part(static_cast<double>(settings.caustics.emitted));
+  small.settings.importance.importons = part(static_cast<double>(settings.importance.importons));
   small.settings.volume.flights = part(static_cast<double>(settings.volume.flights));
   small.settings.volume.planes = part(static_cast<double>(settings.volume.planes));
   return small;

@@ -42,7 +42,7 @@ bool merges_where_the_eye_looks(const Scene& scene, const TechniqueSet& techniqu
 }
 
 TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& settings, const MergeKernels& kernels) {
-  const auto paths = static_cast<double>(settings.photons_emitted);
+  const auto paths = static_cast<double>(settings.photons.emitted);
   const TechniqueSet& techniques = settings.combined.techniques;
   TechniqueCounts counts;
   counts.light = techniques.has(Technique::connections);
@@ -64,7 +64,7 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
 }
 
 RenderSettings with_shares_of(RenderSettings settings, uint64_t light_paths) {
-  if (light_paths > 0) settings.photons_emitted = light_paths;
+  if (light_paths > 0) settings.photons.emitted = light_paths;
   return settings;
 }
 
@@ -81,7 +81,7 @@ LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& number
 /// How many connections there are of a vertex of a light sub-path for each vertex of an eye sub-path, where each of the
 /// latter has kConnections, one at the most. A few sub-paths say that, as weights must be known while all are traced.
 void count_by_few(const LightTracing& tracing, const RenderSettings& settings, int pass, TechniqueCounts& counts) {
-  const uint64_t paths = settings.photons_emitted, number = std::min(paths, kFewPaths);
+  const uint64_t paths = settings.photons.emitted, number = std::min(paths, kFewPaths);
   if (!counts.light) return;
   // Numbers beyond those of the pass: at random, as points of one scrambling depend on each other.
   const PhotonNumbers numbers(PhotonSequence::random, settings.seed, static_cast<uint64_t>(pass));
@@ -94,13 +94,13 @@ void count_by_few(const LightTracing& tracing, const RenderSettings& settings, i
 
 CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares)
     : scene_(scene),
-      paths_(settings.photons_emitted),
+      paths_(settings.photons.emitted),
       max_events_(settings.max_events),
       strategy_(make_distance_strategy(settings.distance, {.pass = static_cast<uint64_t>(pass)})),
       transmittance_(make_transmittance_estimator({})),
       kernels_(kernels_of_pass(scene, settings, pass)),
       counts_(counts_of_pass(scene, with_shares_of(settings, paths_of_shares), kernels_)) {
-  const PhotonNumbers numbers(settings.photon_sequence, settings.seed, static_cast<uint64_t>(pass));
+  const PhotonNumbers numbers(settings.photons.sequence, settings.seed, static_cast<uint64_t>(pass));
   const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, kConnectable};
   const Stopwatch clock;
   count_by_few(tracing, settings, pass, counts_);
@@ -159,7 +159,7 @@ float first_radius_of_merges(const AskedGather& volume, const Scene& scene) {
 
 RenderSettings with_light_paths(const RenderSettings& settings, uint64_t most) {
   RenderSettings few = settings;
-  few.photons_emitted = std::min(most, settings.photons_emitted);
+  few.photons.emitted = std::min(most, settings.photons.emitted);
   return few;
 }
 

@@ -11,7 +11,7 @@
 
 namespace vpm {
 
-/// Pass number `pass`, from 0, with its light sub-paths traced and sorted: RenderSettings::photons_emitted of them.
+/// Pass number `pass`, from 0, with its light sub-paths traced and sorted: RenderSettings::photons of them.
 /// Immutable while rays run; the scene must live as long.
 class CombinedPass {
  public:

@@ -41,8 +41,9 @@ void describe_combined(RenderSettings& s, Description& d) {
   own.add("radii", &RenderSettings::radii, words_of<RadiusSchedule>(2),
           "how the radii of merges go on after the first pass");
   d.in("integrator.photons");
-  own.add("emitted", &RenderSettings::photons_emitted, Integers{1}, "light sub-paths per pass", {.automatic = true});
-  own.add("sequence", &RenderSettings::photon_sequence, "what they are drawn from, as for photon maps");
+  const Members<PhotonSettings> photons(s.photons, d);
+  photons.add("emitted", &PhotonSettings::emitted, Integers{1}, "light sub-paths per pass", {.automatic = true});
+  photons.add("sequence", &PhotonSettings::sequence, "what they are drawn from, as for photon maps");
   describe(s.distance, strategies_of_known_density(), "regular", d.in("integrator.distance"));
   d.in("integrator.volume");
   describe_radius(s.volume, kRadiusOfMerges, d);

@@ -10,20 +10,20 @@ namespace vpm {
 namespace {
 
 void check_photons(const RenderSettings& s) {
-  refuse_if(s.photons_emitted == 0 && s.photons_stored == 0, "integrator.photons.emitted",
+  refuse_if(s.photons.emitted == 0 && s.photons.stored == 0, "integrator.photons.emitted",
             "no photon would be emitted: 'emitted' and 'stored' are both 0", "make one of them positive");
-  refuse_if(s.photons_in_cube > 0 && s.radii == RadiusSchedule::per_pixel, "integrator.photons.in_cube",
+  refuse_if(s.photons.in_cube > 0 && s.radii == RadiusSchedule::per_pixel, "integrator.photons.in_cube",
             "where 'radii' are \"per-pixel\" photons are counted, so that none may be merged",
             "write 0, or other radii");
 }
 
 /// Blocks of photons are each gathered as if they were all: sums over photons add up, and nothing else does.
 void check_blocks(const RenderSettings& s) {
-  if (s.photons_block == 0) return;
+  if (s.photons.block == 0) return;
   const std::string blocks = "where 'block' of [integrator.photons] is above 0 ", or_all = ", or leave out 'block'";
-  refuse_if(s.photons_emitted == 0 || s.photons_stored > 0, "integrator.photons.stored",
+  refuse_if(s.photons.emitted == 0 || s.photons.stored > 0, "integrator.photons.stored",
             blocks + "the number of photons of a pass is that of 'emitted'", "write 'emitted' instead" + or_all);
-  refuse_if(s.photons_in_cube > 0, "integrator.photons.in_cube",
+  refuse_if(s.photons.in_cube > 0, "integrator.photons.in_cube",
             blocks + "photons of different blocks cannot be merged", "leave out 'in_cube'" + or_all);
   refuse_if(s.volume.info().flights && s.volume.flights > 0, "integrator.volume.flights",
             blocks + "flights cannot be drawn from those of all blocks", "leave out 'flights'" + or_all);
@@ -36,15 +36,15 @@ void check_blocks(const RenderSettings& s) {
   refuse_if(!s.volume.info().collisions, "integrator.volume.type",
             blocks + "eye rays do not know where the beams of all blocks lie, among which they would march",
             "write \"photon-beams\"" + or_all);
-  if (s.surface_indirect != IndirectLight::final_gather) return;
+  if (s.indirect.type != IndirectLight::final_gather) return;
   refuse_if(s.caustics.goes_by_count(), "integrator.caustics.type", radii, "write \"radius\"" + or_all);
-  refuse_if(s.gather_by == GatherBy::photons, "integrator.indirect.rays_by",
+  refuse_if(s.indirect.rays_by == GatherBy::photons, "integrator.indirect.rays_by",
             blocks + "the photons of one block would guide its rays otherwise than those of another",
             "write \"material\"" + or_all);
-  refuse_if(s.end_irradiance == EndIrradiance::precomputed, "integrator.indirect.irradiance",
+  refuse_if(s.indirect.irradiance == EndIrradiance::precomputed, "integrator.indirect.irradiance",
             blocks + "irradiance would be computed at the places of one block's photons, from these alone",
             "write \"estimate\"" + or_all);
-  refuse_if(s.caustics_emitted > 0, "integrator.caustics.emitted",
+  refuse_if(s.caustics.emitted > 0, "integrator.caustics.emitted",
             blocks + "photons that are aimed have none of their own",
             "leave out 'emitted' of [integrator.caustics]" + or_all);
 }
@@ -60,10 +60,10 @@ void check_transmittance(const RenderSettings& s, const SceneFacts& facts) {
 void check_flights(const RenderSettings& s, const SceneFacts& facts) {
   const VolumeEstimatorInfo& volume = s.volume.info();
   if (!volume.flights) return;
-  refuse_if(s.photons_in_cube > 0 && volume.along_rays, "integrator.photons.in_cube",
+  refuse_if(s.photons.in_cube > 0 && volume.along_rays, "integrator.photons.in_cube",
             "where beams cross rays, the collisions near these weigh by their own directions, and must not be merged",
             "write 0, or another 'type' in [integrator.volume]");
-  refuse_if(s.photons_stored > 0 && !volume.collisions, "integrator.photons.stored",
+  refuse_if(s.photons.stored > 0 && !volume.collisions, "integrator.photons.stored",
             "flights do not count towards the photons stored, and in media nothing else is: 'type' of "
             "[integrator.volume] is \"" +
                 s.volume.type() + "\"",
@@ -83,14 +83,14 @@ void check_flights(const RenderSettings& s, const SceneFacts& facts) {
 void check_borders(const RenderSettings& s) {
   const bool in_media = s.volume.boundary == BoundaryRule::corrected && !s.volume.info().along_rays;
   const bool on_surfaces = s.surface.boundary == BoundaryRule::corrected;
-  refuse_if((in_media || on_surfaces) && s.photons_in_cube > 0,
+  refuse_if((in_media || on_surfaces) && s.photons.in_cube > 0,
             in_media ? "integrator.volume.boundary" : "integrator.surface.boundary",
             "there is no correction at borders where 'in_cube' of [integrator.photons] merges photons across them",
             "leave out 'boundary', or 'in_cube'");
 }
 
 void check_final_gathering(const RenderSettings& s) {
-  if (s.surface_indirect != IndirectLight::final_gather || s.end_irradiance != EndIrradiance::precomputed) return;
+  if (s.indirect.type != IndirectLight::final_gather || s.indirect.irradiance != EndIrradiance::precomputed) return;
   refuse_if(s.surface.boundary == BoundaryRule::corrected, "integrator.indirect.irradiance",
             "irradiance is computed beforehand without a correction at borders",
             "write \"estimate\", or make 'boundary' of [integrator.surface] \"none\"");
@@ -112,7 +112,7 @@ void check_radii_of_pixels(const RenderSettings& s) {
   refuse_if(kernel_order(s.surface.kernel) > 2, "integrator.surface.kernel",
             pixels + "the rule of radii is for kernels whose bias goes with their square",
             "use another kernel, or write other radii");
-  refuse_if(s.surface_indirect == IndirectLight::final_gather, "integrator.indirect.type",
+  refuse_if(s.indirect.type == IndirectLight::final_gather, "integrator.indirect.type",
             pixels + "there is no final gathering", "take indirect light from \"photons\", or write other radii");
   refuse_if(s.surface.boundary == BoundaryRule::corrected, "integrator.surface.boundary",
             pixels + "the number of photons found sets the radius, so that none may be left out at borders",

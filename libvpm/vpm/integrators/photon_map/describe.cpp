@@ -28,25 +28,25 @@ void describe_guide(GuideSettings& guide, Description& d) {
          "its way through an opening after it has scattered");
 }
 
-void describe_photons(S& s, Description& d) {
+void describe_photons(PhotonSettings& photons, Description& d) {
   d.in("integrator.photons");
-  const Members<S> of(s, d);
-  of.add("stored", &S::photons_stored, Integers{}, "photons per pass and map at which tracing stops; 0: no limit");
-  S usual;
-  if (s.photons_stored > 0) usual.photons_emitted = 0;
-  Members<S>(s, d, usual)
-      .add("emitted", &S::photons_emitted, Integers{}, "photons per pass; 0: until the maps are full",
-           {.usual_text = "200000, or 0 where `stored` is above 0", .automatic = true, .stays = s.photons_stored > 0});
-  of.add("block", &S::photons_block, Integers{},
+  const Members<PhotonSettings> of(photons, d);
+  of.add("stored", &PhotonSettings::stored, Integers{}, "photons per pass and map at which tracing stops; 0: no limit");
+  PhotonSettings usual;
+  if (photons.stored > 0) usual.emitted = 0;
+  Members<PhotonSettings>(photons, d, usual)
+      .add("emitted", &PhotonSettings::emitted, Integers{}, "photons per pass; 0: until the maps are full",
+           {.usual_text = "200000, or 0 where `stored` is above 0", .automatic = true, .stays = photons.stored > 0});
+  of.add("block", &PhotonSettings::block, Integers{},
          "> 0: the photons of a pass are traced, gathered and dropped in blocks of at most so many, so that memory "
          "holds one block at a time; the picture is the same, and eye rays are followed again for each block, see "
          "below; 0: all at once");
-  of.add("sequence", &S::photon_sequence,
+  of.add("sequence", &PhotonSettings::sequence,
          "what emission, the first flights and the first scattering of photons are drawn from: points of Sobol's "
          "sequence, scrambled anew for each pass, which lie more evenly and leave less noise in fog; or random "
          "numbers, as always where importance guides photons, caustics aim them, the nearest are gathered, or they "
          "find places for irradiance");
-  of.add("in_cube", &S::photons_in_cube, Integers{0, kMostRays},
+  of.add("in_cube", &PhotonSettings::in_cube, Integers{0, kMostRays},
          "> 0: the most photons kept in a cube of half a gather radius for each octant of directions; these take over "
          "the power of the rest");
 }
@@ -79,40 +79,46 @@ void describe_surface(S& s, Description& d) {
                      set});
 }
 
-void describe_single_scattering(S& s, Description& d) {
+void describe_single_scattering(SingleScatteringSettings& s, Description& d) {
   d.in("integrator.single_scattering");
-  const Members<S> of(s, d);
-  of.add("type", &S::volume_direct,
+  const Members<SingleScatteringSettings> of(s, d);
+  of.add("type", &SingleScatteringSettings::type,
          "light that media scatter once: from `\"photons\"`, by `\"shadow-rays\"` from every step of the march, or "
          "`\"equiangular\"`, by shadow rays from a few distances of each stretch of an eye ray, drawn both towards the "
          "light and by what reaches the eye. Light that scatters more than once always comes from the photon map");
-  if (s.volume_direct == DirectLight::equiangular)
-    of.add("samples", &S::direct_samples, Integers{1, kMostRays}, "how many pairs of such distances");
+  if (s.type == DirectLight::equiangular)
+    of.add("samples", &SingleScatteringSettings::samples, Integers{1, kMostRays}, "how many pairs of such distances");
 }
 
 void describe_light_on_surfaces(S& s, Description& d) {
   d.in("integrator.direct");
-  const Members<S> of(s, d);
-  of.add("type", &S::surface_direct, words_of<DirectLight>(2),
-         "light on surfaces that has not scattered yet: from `\"photons\"`, or by `\"shadow-rays\"`");
-  if (s.surface_direct == DirectLight::shadow_rays)
-    of.add("samples", &S::surface_direct_samples, Integers{1, kMostRays},
-           "how many shadow rays to each lamp or sky, to places that lie evenly on it");
+  const Members<DirectSettings> direct(s.direct, d);
+  direct.add("type", &DirectSettings::type, words_of<DirectLight>(2),
+             "light on surfaces that has not scattered yet: from `\"photons\"`, or by `\"shadow-rays\"`");
+  if (s.direct.type == DirectLight::shadow_rays)
+    direct.add("samples", &DirectSettings::samples, Integers{1, kMostRays},
+               "how many shadow rays to each lamp or sky, to places that lie evenly on it");
   d.in("integrator.indirect");
-  of.add("type", &S::surface_indirect, "light that surfaces scattered: from `\"photons\"`, or by `\"final-gather\"`");
-  if (s.surface_indirect != IndirectLight::final_gather) return;
-  of.add("rays", &S::gather_rays, Integers{1, kMostRays}, "how many, at each point that the eye sees");
-  of.add("rays_by", &S::gather_by,
-         "how they are drawn: as the `\"material\"` scatters, or up to half of them to where the `\"photons\"` nearby "
-         "came from, by a map of their own. Pays where indirect light comes from one side, as out of the next room; "
-         "noisier where it comes evenly from everywhere");
-  of.add("irradiance", &S::end_irradiance,
-         "what they find where they end on a Lambertian surface: an `\"estimate\"` from all photons around, or one "
-         "`\"precomputed\"` at the place of a photon nearby. Quicker where rays are many more than photons, and "
-         "further off, see below");
+  const Members<IndirectSettings> indirect(s.indirect, d);
+  indirect.add("type", &IndirectSettings::type,
+               "light that surfaces scattered: from `\"photons\"`, or by `\"final-gather\"`");
+  if (!s.gathers_finally()) return;
+  indirect.add("rays", &IndirectSettings::rays, Integers{1, kMostRays}, "how many, at each point that the eye sees");
+  indirect.add(
+      "rays_by", &IndirectSettings::rays_by,
+      "how they are drawn: as the `\"material\"` scatters, or up to half of them to where the `\"photons\"` nearby "
+      "came from, by a map of their own. Pays where indirect light comes from one side, as out of the next room; "
+      "noisier where it comes evenly from everywhere");
+  indirect.add(
+      "irradiance", &IndirectSettings::irradiance,
+      "what they find where they end on a Lambertian surface: an `\"estimate\"` from all photons around, or one "
+      "`\"precomputed\"` at the place of a photon nearby. Quicker where rays are many more than photons, and "
+      "further off, see below");
   describe_gather_on_surfaces(s.caustics, d, "integrator.caustics");
-  of.add("emitted", &S::caustics_emitted, Integers{},
-         "> 0: that many further photons per pass, aimed at mirrors and glass for the caustic map of final gathering");
+  Members<CausticMapSettings>(s.caustics, d)
+      .add(
+          "emitted", &CausticMapSettings::emitted, Integers{},
+          "> 0: that many further photons per pass, aimed at mirrors and glass for the caustic map of final gathering");
 }
 
 constexpr const char* kRadiiMeaning =
@@ -129,14 +135,14 @@ void describe_photon_maps(RenderSettings& s, Description& d) {
          "longest step of the eye rays' march, in optical thickness; photons of homogeneous media are summed in steps "
          "of a radius where `boundary` is `\"ends\"`; with `\"beams-points\"` that of the densest place counts "
          "everywhere");
-  describe_photons(s, d);
-  describe_guide(s.guide, d);
+  describe_photons(s.photons, d);
+  describe_guide(s.importance, d);
   // Photons are many and fly far: what a flight costs is most of their time, and null collisions cost less of it than
   // cells. Of paths and techniques combined most of the time is elsewhere (papers/distance-sampling.md).
   describe(s.distance, strategies_that(&StrategyInfo::positive), "delta-local", d.in("integrator.distance"));
   const StrategyInfo* const flights = find_strategy(s.distance.strategy);
   describe(s.volume, flights && flights->analog, d.in("integrator.volume"));
-  describe_single_scattering(s, d);
+  describe_single_scattering(s.single_scattering, d);
   describe_surface(s, d);
   describe_light_on_surfaces(s, d);
   describe(s.transmittance, d.in("integrator.transmittance"));

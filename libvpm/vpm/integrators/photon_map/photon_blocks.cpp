@@ -31,14 +31,14 @@ class WeightedSum {
 }  // namespace
 
 uint64_t block_count(const RenderSettings& settings) {
-  const uint64_t photons = settings.photons_emitted, most = settings.photons_block;
+  const uint64_t photons = settings.photons.emitted, most = settings.photons.block;
   if (most == 0 || settings.integrator != Integrator::photon) return 1;
   return std::max<uint64_t>(1, photons / most + (photons % most > 0));
 }
 
 PhotonBlock photon_block(const RenderSettings& settings, uint64_t number) {
-  const uint64_t blocks = block_count(settings), each = settings.photons_emitted / blocks,
-                 larger = settings.photons_emitted % blocks;  // the first ones
+  const uint64_t blocks = block_count(settings), each = settings.photons.emitted / blocks,
+                 larger = settings.photons.emitted % blocks;  // the first ones
   return {number * each + std::min(number, larger), each + (number < larger)};
 }
 
@@ -47,7 +47,7 @@ Pass mean_of_blocks(const RenderSettings& settings, const std::function<Pass(con
   const uint64_t blocks = block_count(settings);
   if (blocks == 1) return mean;
   const auto share = [&](uint64_t number) {
-    return static_cast<double>(photon_block(settings, number).count) / static_cast<double>(settings.photons_emitted);
+    return static_cast<double>(photon_block(settings, number).count) / static_cast<double>(settings.photons.emitted);
   };
   WeightedSum image(mean.image, share(0)), correction(mean.correction, share(0));
   for (uint64_t number = 1; number < blocks; ++number) {

@@ -20,7 +20,7 @@ struct PhotonBlock {
   uint64_t first = 0, count = 0;
 };
 
-/// How many blocks a pass has: as few as have no more than `photons_block` photons; 1 where that is 0, and where a pass
+/// How many blocks a pass has: as few as have no more than `photons.block` photons; 1 where that is 0, and where a pass
 /// is none of photon maps.
 uint64_t block_count(const RenderSettings& settings);
 /// One of these, from 0. They have the same number of photons, or one more.

@@ -18,10 +18,10 @@ namespace {
 /// the points is not even any more.
 PhotonSequence sequence_of(const RenderSettings& settings) {
   const bool of_ends =
-      settings.caustics.mode == GatherMode::nearest || settings.end_irradiance == EndIrradiance::precomputed;
-  const bool random = settings.guide.importons > 0 || settings.volume.info().mode == GatherMode::nearest ||
+      settings.caustics.mode == GatherMode::nearest || settings.indirect.irradiance == EndIrradiance::precomputed;
+  const bool random = settings.importance.importons > 0 || settings.volume.info().mode == GatherMode::nearest ||
                       settings.surface.mode == GatherMode::nearest || (settings.gathers_finally() && of_ends);
-  return random ? PhotonSequence::random : settings.photon_sequence;
+  return random ? PhotonSequence::random : settings.photons.sequence;
 }
 
 TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run) {
@@ -29,10 +29,10 @@ TraceSettings trace_settings(const RenderSettings& settings, const PassRun& run)
   trace.seed = settings.seed;
   trace.pass = static_cast<uint64_t>(run.pass);
   trace.sequence = sequence_of(settings);
-  const PhotonBlock block = run.block.value_or(PhotonBlock{0, settings.photons_emitted});
+  const PhotonBlock block = run.block.value_or(PhotonBlock{0, settings.photons.emitted});
   trace.first = block.first;
   trace.emitted = block.count;
-  trace.stored = settings.photons_stored;
+  trace.stored = settings.photons.stored;
   trace.max_events = settings.max_events;
   return trace;
 }
@@ -78,11 +78,11 @@ void trace_pass(const Scene& scene, const RenderSettings& settings, const Estima
                                    [](const PhotonRecorder* recorder) { return recorder->reads_density(); });
   const auto strategy = make_distance_strategy(settings.distance, {.pass = trace.pass, .density = density});
   std::optional<PhotonGuide> guide;
-  if (settings.guide.importons > 0) {
+  if (settings.importance.importons > 0) {
     const Stopwatch learning;
-    guide = learn_guide(scene, *strategy, settings.guide, trace.seed, trace.pass, settings.max_events);
+    guide = learn_guide(scene, *strategy, settings.importance, trace.seed, trace.pass, settings.max_events);
     trace.guide = &*guide;
-    trace.split = settings.guide.split;
+    trace.split = settings.importance.split;
     statistics.guide_seconds = learning.seconds();
     statistics.guide_bytes = guide->memory_bytes();
   }

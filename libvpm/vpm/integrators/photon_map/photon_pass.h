@@ -18,7 +18,7 @@ struct PassRun {
 };
 
 /// Traces the photons of the pass into the recorders of the estimators, if these have any. They start with random
-/// numbers, whatever RenderSettings::photon_sequence says, where a guide emits them, where the nearest are gathered,
+/// numbers, whatever PhotonSettings::sequence says, where a guide emits them, where the nearest are gathered,
 /// and where they find places for irradiance.
 void trace_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                 RenderStatistics& statistics);

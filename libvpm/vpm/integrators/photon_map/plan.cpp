@@ -18,7 +18,7 @@ using SharedTransmittance = std::shared_ptr<const TransmittanceEstimator>;
 PassOfMaps pass_of_maps(const RenderSettings& settings, int pass) {
   return {.number = pass,
           .shrinks = settings.radii != RadiusSchedule::constant,
-          .photons_in_cube = settings.photons_in_cube};
+          .photons_in_cube = settings.photons.in_cube};
 }
 
 /// The radii of the pixels' discs in a pass, m.
@@ -33,7 +33,7 @@ std::vector<float> radii_of_pixels(const Scene& scene, const RenderSettings& set
 std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& scene, const RenderSettings& settings,
                                                                 const PassOfMaps& pass,
                                                                 const SharedTransmittance& transmittance) {
-  const bool by_rays = settings.volume_direct != DirectLight::photons;
+  const bool by_rays = settings.single_scattering.type != DirectLight::photons;
   // Photons that fly by another law than the medium's transmittance do not weigh 1/density where it is thin.
   const bool analog = strategy_info(settings.distance.strategy).analog;
   const VolumeSettings& volume = settings.volume;
@@ -46,9 +46,9 @@ std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& sce
                       .seed = settings.seed},
                      made);
   auto& [estimators, marched] = made;
-  if (settings.volume_direct == DirectLight::equiangular)
-    estimators.push_back(std::make_unique<SingleEquiangular>(scene, transmittance, settings.direct_samples));
-  if (settings.volume_direct == DirectLight::shadow_rays)
+  if (settings.single_scattering.type == DirectLight::equiangular)
+    estimators.push_back(std::make_unique<SingleEquiangular>(scene, transmittance, settings.single_scattering.samples));
+  if (settings.single_scattering.type == DirectLight::shadow_rays)
     marched.push_back(std::make_unique<SingleMarched>(scene, transmittance));
   if (!marched.empty())
     estimators.push_back(std::make_unique<MarchedLight>(std::move(marched), settings.max_optical_step));
@@ -61,16 +61,15 @@ std::unique_ptr<SurfaceEstimator> surface_estimator(const Scene& scene, const Re
                                                     const SharedTransmittance& transmittance) {
   const SurfaceMapSettings map{settings.surface, pass};
   std::optional<SurfaceShadowRays> direct;
-  assert(settings.surface_direct != DirectLight::equiangular);
-  if (settings.surface_direct == DirectLight::shadow_rays)
-    direct.emplace(scene, transmittance, settings.surface_direct_samples);
-  if (settings.surface_indirect == IndirectLight::final_gather) {
+  assert(settings.direct.type != DirectLight::equiangular);
+  if (settings.direct.type == DirectLight::shadow_rays) direct.emplace(scene, transmittance, settings.direct.samples);
+  if (settings.indirect.type == IndirectLight::final_gather) {
     const FinalGatherSettings gather{map,
                                      {settings.caustics, map.pass},
-                                     settings.caustics_emitted,
-                                     settings.gather_rays,
-                                     settings.gather_by == GatherBy::photons,
-                                     settings.end_irradiance == EndIrradiance::precomputed,
+                                     settings.caustics.emitted,
+                                     settings.indirect.rays,
+                                     settings.indirect.rays_by == GatherBy::photons,
+                                     settings.indirect.irradiance == EndIrradiance::precomputed,
                                      settings.max_events};
     return std::make_unique<FinalGather>(scene, gather, std::move(direct));
   }
@@ -131,8 +130,8 @@ void check_apart(const std::vector<std::unique_ptr<VolumeEstimator>>& estimators
 
 bool casts_shadow_rays(const SceneFacts& facts, const RenderSettings& settings) {
   return (facts.scattering_media &&
-          (settings.volume_direct != DirectLight::photons || settings.volume.info().planes)) ||
-         (facts.rough_surfaces && settings.surface_direct != DirectLight::photons);
+          (settings.single_scattering.type != DirectLight::photons || settings.volume.info().planes)) ||
+         (facts.rough_surfaces && settings.direct.type != DirectLight::photons);
 }
 
 std::vector<std::string> maps_of_unseen_bias(const Scene& scene, const RenderSettings& settings) {

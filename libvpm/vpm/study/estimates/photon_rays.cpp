@@ -13,7 +13,7 @@ std::vector<double> look_at_pass(const Scene& scene, const PhotonRays& by, int p
                                  const LookAlongRays& look) {
   RenderSettings settings;
   settings.seed = by.seed;
-  settings.photons_emitted = by.photons;
+  settings.photons.emitted = by.photons;
   settings.max_events = by.max_events;
   settings.radii = RadiusSchedule::constant;
   settings.volume.choose(by.type);

@@ -102,7 +102,7 @@ struct Subject {
 
 RenderSettings photon_settings(const Subject& subject, uint64_t photons) {
   RenderSettings settings;
-  settings.photons_emitted = photons * subject.times;
+  settings.photons.emitted = photons * subject.times;
   settings.volume.radius = settings.surface.radius = settings.caustics.radius = subject.radius;
   return settings;
 }

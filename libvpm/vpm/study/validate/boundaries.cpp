@@ -75,7 +75,7 @@ std::vector<Check> check_combined_panes(const Effort& effort) {
   finish(scene);
   RenderSettings settings;
   settings.integrator = Integrator::combined;
-  settings.photons_emitted = 1;
+  settings.photons.emitted = 1;
   settings.surface.radius = settings.volume.radius = 0.01f;
   for (const TechniqueInfo& info : kTechniques)
     settings.combined.techniques.set(info.technique, info.technique == Technique::connections);
@@ -133,10 +133,10 @@ std::vector<Check> check_media(const Effort& effort) {
   const Scene scene = nested_media();
   RenderSettings settings;
   settings.seed = effort.seed_of("nested media");
-  settings.photons_emitted = effort.count(20'000, 1'000'000);
+  settings.photons.emitted = effort.count(20'000, 1'000'000);
   settings.samples_per_pixel = static_cast<int>(effort.count(20, 1000));
   settings.volume.radius = 0.1f;
-  settings.volume_direct = DirectLight::shadow_rays;
+  settings.single_scattering.type = DirectLight::shadow_rays;
   const RenderStatistics photons = render_photon_pass(scene, settings, 0).statistics;
   const RenderStatistics paths = render_path_pass(scene, settings, 0).statistics;
   const auto corrections = [](std::string name, const WalkCounters& walk) {

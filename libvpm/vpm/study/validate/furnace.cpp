@@ -205,7 +205,7 @@ std::vector<Check> check_picture(const std::string& name, Scene scene, const Vol
   scene.camera = make_camera(field_point({20, 17, 25}), field_point(Vec3d(0.0)), Vec3(0, 1, 0), 14.0f, {8, 8});
   RenderSettings settings;
   settings.seed = effort.seed_of(name);
-  settings.photons_emitted = 10'000;
+  settings.photons.emitted = 10'000;
   settings.radii = RadiusSchedule::constant;
   settings.volume = gather;
   settings.surface.radius = 0.05f;
@@ -309,7 +309,7 @@ std::vector<Check> check_combined(const Effort& effort) {
       for (const TechniqueInfo& info : kTechniques)
         settings.combined.techniques.set(
             info.technique, std::find(techniques.begin(), techniques.end(), info.technique) != techniques.end());
-      settings.photons_emitted = 500;
+      settings.photons.emitted = 500;
       settings.samples_per_pixel = 4;
       settings.radii = RadiusSchedule::constant;
       settings.volume.radius = settings.surface.radius = 0.02f;

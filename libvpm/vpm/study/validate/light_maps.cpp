@@ -55,7 +55,7 @@ std::vector<Check> compare_light_maps(const Effort& effort) {
   const Scene scene = lit_corner();
   const Irradiance reference = by_paths(scene, effort.count(40'000, 1'000'000), effort.seed_of("floor by paths"));
   RenderSettings settings;
-  settings.photons_emitted = effort.count(6'000, 20'000);
+  settings.photons.emitted = effort.count(6'000, 20'000);
   settings.samples_per_pixel = 200;
   settings.radii = RadiusSchedule::constant;
   settings.surface.radius = settings.caustics.radius = kRadius;
@@ -65,12 +65,12 @@ std::vector<Check> compare_light_maps(const Effort& effort) {
     const Irradiance map = by_light_map(scene, settings, effort.count(24, 64));
     for (size_t c = 0; c < 3; ++c) checks.push_back(check_same(name + kOfChannel[c], map[c], reference[c]));
   };
-  settings.surface_direct = DirectLight::photons;
+  settings.direct.type = DirectLight::photons;
   compare("photons alone");
-  settings.surface_direct = DirectLight::shadow_rays;
+  settings.direct.type = DirectLight::shadow_rays;
   compare("direct light by shadow rays");
-  settings.surface_indirect = IndirectLight::final_gather;
-  settings.gather_rays = 1;
+  settings.indirect.type = IndirectLight::final_gather;
+  settings.indirect.rays = 1;
   compare("final gathering");
   return checks;
 }

@@ -18,7 +18,7 @@ namespace {
 RenderSettings pass_settings(uint64_t seed) {
   RenderSettings settings;
   settings.seed = seed;
-  settings.photons_emitted = 500;
+  settings.photons.emitted = 500;
   settings.volume.radius = 0.2f;
   settings.surface.radius = 0.3f;
   return settings;
@@ -80,10 +80,10 @@ std::vector<Check> check_pixels(int samples, const Effort& effort) {
   RenderSettings settings = pass_settings(effort.seed_of(fmt::format("pixels, {}", samples)));
   settings.samples_per_pixel = samples;
   settings.until.passes = static_cast<int>(effort.count(12, 100));
-  settings.photons_emitted = 2000;
+  settings.photons.emitted = 2000;
   settings.radii = RadiusSchedule::per_pixel;
   settings.surface.kernel = KernelKind::constant;
-  settings.surface_direct = DirectLight::photons;
+  settings.direct.type = DirectLight::photons;
   RenderResult result = nothing_rendered(scene.camera);
   std::vector<TextbookPixel> textbook(result.film.mean().pixels.size(), {settings.surface.radius.metres()});
   const double power = light_power(scene.lights[0], scene.bounds).g;  // of every photon
@@ -93,7 +93,7 @@ std::vector<Check> check_pixels(int samples, const Effort& effort) {
     return pass;
   };
   result = run_passes(settings.until, {run, tile_count(scene.camera)}, std::move(result), {});
-  const double per_flux = 0.5 / kPiD / (kPiD * settings.until.passes * static_cast<double>(settings.photons_emitted));
+  const double per_flux = 0.5 / kPiD / (kPiD * settings.until.passes * static_cast<double>(settings.photons.emitted));
   const Image mean = result.film.mean();
   double radius_off = 0.0, radiance_off = 0.0;
   size_t lit = 0;

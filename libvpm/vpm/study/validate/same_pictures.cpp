@@ -58,13 +58,13 @@ Moments radiance(const Scene& scene, RenderSettings settings, size_t passes, con
 Check check_caustics(const Effort& effort) {
   const Scene scene = lit_corner(1.5f);
   RenderSettings settings;
-  settings.photons_emitted = 1000;
+  settings.photons.emitted = 1000;
   settings.surface.radius = settings.caustics.radius = 0.4f;
-  settings.surface_indirect = IndirectLight::final_gather;
-  settings.gather_rays = 1;
+  settings.indirect.type = IndirectLight::final_gather;
+  settings.indirect.rays = 1;
   const size_t passes = effort.count(200, 4000);
   const Moments by_all = radiance(scene, settings, passes, effort, "caustics by all");
-  settings.caustics_emitted = 400;  // another number, which their power depends on
+  settings.caustics.emitted = 400;  // another number, which their power depends on
   return check_same("caustics by photons that are aimed", radiance(scene, settings, passes, effort, "caustics aimed"),
                     by_all);
 }
@@ -80,13 +80,13 @@ std::vector<Check> check_final_gathering(const Effort& effort) {
   scene.geometry.commit();
   finish(scene);
   RenderSettings settings;
-  settings.photons_emitted = 500;
+  settings.photons.emitted = 500;
   settings.surface.radius = kRatio * kRadius;
-  settings.surface_indirect = IndirectLight::final_gather;
-  settings.gather_rays = 4;
+  settings.indirect.type = IndirectLight::final_gather;
+  settings.indirect.rays = 4;
   const size_t passes = effort.count(500, 20'000);
   const Moments at_ends = radiance(scene, settings, passes, effort, "irradiance at ends");
-  settings.end_irradiance = EndIrradiance::precomputed;
+  settings.indirect.irradiance = EndIrradiance::precomputed;
   const double whole = kReflectance / kPiD / (1.0 - double{kReflectance}) / (4.0 * kPiD * kRadius * kRadius);
   const double left_out = double{kReflectance} * kReflectance * kCapLoss * kRatio * kRatio;
   return {check_mean("final gathering in a hollow sphere", at_ends, whole * (1.0 - left_out)),
@@ -99,13 +99,13 @@ std::vector<Check> check_pictures(const Effort& effort) {
   const Scene whole = lit_by(one, LightPlace::in_fog), parts = lit_by(two, LightPlace::in_fog);
   const Scene below_one = lit_by(one, LightPlace::above_fog), below_two = lit_by(two, LightPlace::above_fog);
   RenderSettings photons;
-  photons.photons_emitted = 1000;
+  photons.photons.emitted = 1000;
   photons.volume.radius = photons.surface.radius = 0.4f;
-  photons.surface_direct = DirectLight::photons;
+  photons.direct.type = DirectLight::photons;
   RenderSettings at_photons = photons;
   at_photons.volume.form = VolumeForm::density_at_photon;
   RenderSettings shadow_rays = photons;
-  shadow_rays.volume_direct = shadow_rays.surface_direct = DirectLight::shadow_rays;
+  shadow_rays.single_scattering.type = shadow_rays.direct.type = DirectLight::shadow_rays;
   shadow_rays.samples_per_pixel = 4;
   RenderSettings paths;
   paths.integrator = Integrator::path;

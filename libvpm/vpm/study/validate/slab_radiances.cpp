@@ -132,7 +132,7 @@ Check check_slab(const std::string& name, bool voxels, std::string_view type, co
   const Scene scene = slab(voxels);
   RenderSettings settings;
   settings.seed = effort.seed_of(name);
-  settings.photons_emitted = 40'000;
+  settings.photons.emitted = 40'000;
   settings.radii = RadiusSchedule::constant;
   settings.volume.choose(type);
   settings.volume.radius = 0.4f;

@@ -79,7 +79,7 @@ std::vector<Moments> measure(const Variation& change, const Effort& effort) {
   const auto strategy = make_distance_strategy({});
   const GatherSettings gather{GatherMode::radius, static_cast<float>(0.5 * change.scale), 0, KernelKind::epanechnikov};
   RenderSettings settings;
-  settings.photons_emitted = change.photons;
+  settings.photons.emitted = change.photons;
   settings.radii = RadiusSchedule::constant;
   settings.volume.radius = settings.surface.radius = gather.radius;
   return sample_moments(

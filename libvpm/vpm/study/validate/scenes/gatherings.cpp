@@ -14,7 +14,7 @@ namespace {
 void append_flights(NamedSettings& all, const RenderSettings& base) {
   RenderSettings beams = base;
   beams.volume.choose("photon-beams");
-  beams.volume.flights = base.photons_emitted / 2;
+  beams.volume.flights = base.photons.emitted / 2;
   all.emplace_back("photon beams of some flights", beams);
   beams.volume.flights = 0;
   beams.volume.length = BeamLength::long_beams;
@@ -23,14 +23,14 @@ void append_flights(NamedSettings& all, const RenderSettings& base) {
   all.emplace_back("long photon beams around points", beams);
   RenderSettings planes = base;
   planes.volume.choose("photon-planes");
-  planes.photons_emitted = base.photons_emitted / 4;  // few, so that many of their flights become planes
+  planes.photons.emitted = base.photons.emitted / 4;  // few, so that many of their flights become planes
   planes.volume.planes = 1000;
   all.emplace_back("photon planes and beams", planes);
   planes.volume.length = BeamLength::long_beams;
   all.emplace_back("photon planes and long beams", planes);
   planes.volume.length = BeamLength::short_beams;
   planes.volume.share = PlaneUse::alone;
-  planes.volume_direct = DirectLight::equiangular;
+  planes.single_scattering.type = DirectLight::equiangular;
   all.emplace_back("photon planes alone, single scattering equiangular", planes);
 }
 
@@ -42,7 +42,7 @@ NamedSettings forms(const RenderSettings& base, bool media) {
     for (const VolumeForm form : {VolumeForm::density_at_query, VolumeForm::density_at_photon}) {
       if (!media && form == VolumeForm::density_at_photon) continue;
       RenderSettings settings = base;
-      settings.volume_direct = settings.surface_direct = direct;
+      settings.single_scattering.type = settings.direct.type = direct;
       settings.volume.form = form;
       const char* name = !media                                 ? "surface map"
                          : form == VolumeForm::density_at_query ? "density at the query"
@@ -97,8 +97,8 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces, 
   NamedSettings all = forms(base, media);
   if (media)
     for (auto [name, settings] : forms(base, media)) {
-      if (settings.volume_direct != DirectLight::shadow_rays) continue;
-      settings.volume_direct = DirectLight::equiangular;
+      if (settings.single_scattering.type != DirectLight::shadow_rays) continue;
+      settings.single_scattering.type = DirectLight::equiangular;
       all.emplace_back(name + ", equiangular in media", settings);
     }
   RenderSettings nearest = base;
@@ -121,9 +121,9 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces, 
       const std::string name =
           fmt::format("{}, density at the {}", found, form == VolumeForm::density_at_query ? "query" : "photon");
       all.emplace_back(name, beams);
-      beams.volume_direct = DirectLight::shadow_rays;
+      beams.single_scattering.type = DirectLight::shadow_rays;
       all.emplace_back(name + ", single scattering by shadow rays", beams);
-      beams.volume_direct = DirectLight::equiangular;
+      beams.single_scattering.type = DirectLight::equiangular;
       all.emplace_back(name + ", single scattering equiangular", beams);
     }
     append_flights(all, base);
@@ -133,14 +133,14 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces, 
     all.emplace_back("photons around rays, with radii of their own", own_radii);
   }
   RenderSettings guided = base;
-  guided.guide.importons = 1'000;
+  guided.importance.importons = 1'000;
   all.emplace_back("photons guided by importance", guided);
   RenderSettings only_split = guided;
-  only_split.guide.aim = false;
+  only_split.importance.aim = false;
   all.emplace_back("photons guided by importance, not aimed", only_split);
-  guided.guide.scatter = true;
+  guided.importance.scatter = true;
   all.emplace_back("photons guided by importance, where they scatter, too", guided);
-  guided.guide.split = false;
+  guided.importance.split = false;
   all.emplace_back("photons guided by importance, where they scatter, too, but not split", guided);
   append_combined(all, base, media, surfaces, many_sets);
   if (surfaces) {
@@ -148,13 +148,13 @@ NamedSettings gatherings(const RenderSettings& base, bool media, bool surfaces, 
     corrected.volume.boundary = corrected.surface.boundary = corrected.caustics.boundary = BoundaryRule::corrected;
     all.emplace_back("estimates corrected at borders", corrected);
     RenderSettings gathering = base;
-    gathering.surface_indirect = IndirectLight::final_gather;
+    gathering.indirect.type = IndirectLight::final_gather;
     all.emplace_back("final gathering", gathering);
     RenderSettings guided_rays = gathering;
-    guided_rays.gather_by = GatherBy::photons;
+    guided_rays.indirect.rays_by = GatherBy::photons;
     all.emplace_back("final gathering, guided", guided_rays);
-    gathering.surface_direct = DirectLight::photons;
-    gathering.caustics_emitted = base.photons_emitted;
+    gathering.direct.type = DirectLight::photons;
+    gathering.caustics.emitted = base.photons.emitted;
     all.emplace_back("final gathering, direct light by photons, caustics aimed", gathering);
   }
   return all;
