@@ -268,6 +268,22 @@ TEST(SceneFile, OptionsDoNotHideMistakesOfTheFile) {
   EXPECT_NE(by_option.find("--set integrator.surface.radius=3"), std::string::npos) << by_option;
 }
 
+/// Each option is seen by itself: only those that leave out something are named, and what stands behind them stays.
+TEST(SceneFile, OptionsLeaveOutOneAfterAnother) {
+  const std::string photons = "[integrator.photons]\nemitted = 900\n";
+  EXPECT_EQ(load_with(photons, {"integrator.type=path", "integrator.distance.type=delta"}).left_out,
+            "integrator.type is \"path\" in place of \"photon-map\": left out are integrator.photons.emitted");
+  EXPECT_THROW(
+      load_with("", {"integrator.type=path", "integrator.photons.emitted=7", "integrator.distance.type=delta"}),
+      InputError);
+  // Keys that an option made settings, as the common keys of an experiment do.
+  EXPECT_EQ(
+      load_with("", {"integrator.volume.type=photon-beams", "integrator.volume.flights=7", "integrator.type=path"})
+          .left_out,
+      "integrator.type is \"path\" in place of \"photon-map\": left out are integrator.volume.type, "
+      "integrator.volume.flights");
+}
+
 TEST(SceneFile, AnyOptionLeavesOutKeysThatAreNoneAnyMore) {
   const std::string guided = "[integrator.importance]\nimportons = 9\nscatter = true\n";
   EXPECT_EQ(load_with(guided, {"integrator.importance.importons=0"}).left_out,

@@ -7,6 +7,7 @@
 #include "vpm/base/error.h"
 #include "vpm/input/toml/old_keys.h"
 #include "vpm/integrators/describe.h"
+#include "vpm/integrators/every_setting.h"
 
 namespace vpm {
 namespace {

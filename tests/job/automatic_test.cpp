@@ -14,6 +14,7 @@
 #include "vpm/estimate/photon_map.h"
 #include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/integrators/describe.h"
+#include "vpm/integrators/every_setting.h"
 #include "vpm/job/render_job.h"
 #include "vpm/render/pass_time.h"
 #include "vpm/render/render.h"

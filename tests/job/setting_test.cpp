@@ -1,5 +1,6 @@
 // The descriptions of settings: each reaches the member it names and no other, and its values survive being written.
 #include "vpm/integrators/describe.h"
+#include "vpm/integrators/every_setting.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

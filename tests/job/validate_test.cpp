@@ -119,15 +119,6 @@ TEST(Validate, LongBeamsNeedAnEnd) {
 TEST(Validate, BeamsOfCombinedTechniquesNeedAnEndInEveryChannel) {
   RenderSettings s;
   combine(s);
-  const SceneFacts endless{.scattering_media = true, .endless = true, .endless_flights = true};
-  EXPECT_EQ(refused(s, endless), "integrator.techniques");
-  s.combined.techniques.set(Technique::short_beams, false);
-  EXPECT_EQ(refused(s, endless), "");
-}
-
-TEST(Validate, BeamsOfCombinedTechniquesNeedAnEnd) {
-  RenderSettings s;
-  combine(s);
   EXPECT_EQ(refused(s, {.scattering_media = true, .endless = true}), "");
   const SceneFacts endless{.scattering_media = true, .endless = true, .endless_flights = true};
   EXPECT_EQ(refused(s, endless), "integrator.techniques");

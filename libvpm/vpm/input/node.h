@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -42,11 +43,11 @@ std::string kind_of(const Node& node);
 /// The value of a node that is no table, as an option writes it; a list's joined by "+".
 std::string text_of(const Node& node);
 
-/// An option that gives a setting of the integrator another value.
+/// An option that gives a setting of the integrator a value.
 struct Replacement {
-  std::string key;            // "integrator.volume.type"
-  std::string before, after;  // text_of() the values
-  bool said;                  // was `before` said, or is it the default?
+  std::string key;                    // "integrator.volume.type"
+  std::optional<std::string> before;  // text_of() what was said before, if anything was
+  std::string after;                  // likewise of the option
   const Source* option;
 };
 

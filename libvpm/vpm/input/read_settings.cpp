@@ -66,7 +66,7 @@ bool leaves_out(TableReader& table, const Setting& setting, ReplacedKeys& replac
   const auto* const word = std::get_if<std::string>(&node.value);
   if (!words || !word || (setting.automatic && *word == kAuto)) return false;
   const bool is_word = std::find(words->words.begin(), words->words.end(), *word) != words->words.end();
-  return !is_word && replaced.leave_out(setting.key, node);
+  return !is_word && replaced.leave_out_value(setting.key, node);
 }
 
 /// Reads the first setting that is given and has not been read yet; what is missing before it has its default. False

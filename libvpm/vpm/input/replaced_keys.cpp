@@ -1,12 +1,12 @@
-// Settings before and after an option are those that the components describe.
+// Settings before and after an option are those that the components describe under the values said by then.
 #include "vpm/input/replaced_keys.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
-#include <utility>
 
 #include "vpm/integrators/describe.h"
 
@@ -30,58 +30,86 @@ Values values_of(const Document& document) {
   return values;
 }
 
+/// The keys of settings. Of an integrator that is still to be chosen none is known.
 std::set<std::string> keys_with(const Values& values) {
+  const auto integrator = values.find("integrator.type");
+  const bool chosen = integrator != values.end() && integrator->second == kAuto;
   RenderSettings settings = settings_with(values);
   std::set<std::string> keys;
-  for (const Setting& setting : describe(settings)) keys.insert(setting.key);
+  for (const Setting& setting : describe(settings))
+    if (!chosen || !setting.key.starts_with("integrator.") || setting.key == "integrator.type")
+      keys.insert(setting.key);
   return keys;
 }
 
-/// Settings of integrators that are still to be chosen are not known.
-bool chooses_integrator(const Replacement& by) { return by.key == "integrator.type" && by.after == kAuto; }
+/// The default of a key that nothing is said of.
+std::string usual_of(const std::string& key, const Values& values) {
+  RenderSettings settings = settings_with(values);
+  const std::optional<Setting> setting = find_setting(settings, key);
+  return setting ? text_of(setting->usual) : "";
+}
 
 }  // namespace
 
 ReplacedKeys::ReplacedKeys(const Document& document) : document_(document) {
-  if (document.replaced.empty()) return;
   Values values = values_of(document);
   for (auto by = document.replaced.rbegin(); by != document.replaced.rend(); ++by) {
     values.erase(by->key);
-    if (by->said) values[by->key] = by->before;
+    if (by->before) values[by->key] = *by->before;
   }
-  before_ = keys_with(values);
   for (const Replacement& by : document.replaced) {
+    Change change{&by, by.before ? *by.before : usual_of(by.key, values), keys_with(values), {}};
     values[by.key] = by.after;
     const std::set<std::string> after = keys_with(values);
-    if (chooses_integrator(by) || !std::includes(after.begin(), after.end(), before_.begin(), before_.end()))
-      replaced_.push_back(&by);
+    std::set_difference(change.keys.begin(), change.keys.end(), after.begin(), after.end(),
+                        std::inserter(change.gone, change.gone.end()));
+    if (!change.gone.empty() || by.key == "integrator.type") changes_.push_back(std::move(change));
   }
 }
 
-bool ReplacedKeys::has_table(const std::string& path) const {
-  const auto first = before_.lower_bound(path + ".");
-  return !replaced_.empty() && first != before_.end() && first->starts_with(path + ".");
-}
-
-bool ReplacedKeys::leave_out(const std::string& key, const Node& node) {
+bool ReplacedKeys::stands_before(const Node& node, const Change& change) const {
   const auto number_of = [&](const Source* source) {
     return std::find_if(document_.sources.begin(), document_.sources.end(),
                         [&](const auto& each) { return each.get() == source; });
   };
-  const bool stands_before = std::any_of(replaced_.begin(), replaced_.end(), [&](const Replacement* by) {
-    return number_of(node.place.source) < number_of(by->option);
+  return number_of(node.place.source) < number_of(change.by->option);
+}
+
+bool ReplacedKeys::has_table(const std::string& path) const {
+  return std::any_of(changes_.begin(), changes_.end(), [&](const Change& change) {
+    const auto first = change.keys.lower_bound(path + ".");
+    return first != change.keys.end() && first->starts_with(path + ".");
   });
-  if (!before_.contains(key) || !stands_before) return false;
-  left_out_.push_back(key);
-  return true;
+}
+
+bool ReplacedKeys::leave_out(const std::string& key, const Node& node) {
+  for (Change& change : changes_)
+    if (change.gone.contains(key) && stands_before(node, change)) {
+      change.left_out_any = true;
+      left_out_.push_back(key);
+      return true;
+    }
+  return false;
+}
+
+bool ReplacedKeys::leave_out_value(const std::string& key, const Node& node) {
+  for (Change& change : changes_)
+    if (change.by->key == "integrator.type" && change.keys.contains(key) && stands_before(node, change)) {
+      change.left_out_any = true;
+      left_out_.push_back(key);
+      return true;
+    }
+  return false;
 }
 
 std::string ReplacedKeys::note() const {
   if (left_out_.empty()) return "";
-  std::vector<std::string> changes;
-  for (const Replacement* by : replaced_)
-    changes.push_back(fmt::format("{} is \"{}\" in place of \"{}\"", by->key, by->after, by->before));
-  return fmt::format("{}: left out are {}", fmt::join(changes, ", "), fmt::join(left_out_, ", "));
+  std::vector<std::string> options;
+  for (const Change& change : changes_)
+    if (change.left_out_any)
+      options.push_back(
+          fmt::format("{} is \"{}\" in place of \"{}\"", change.by->key, change.by->after, change.before));
+  return fmt::format("{}: left out are {}", fmt::join(options, ", "), fmt::join(left_out_, ", "));
 }
 
 }  // namespace vpm

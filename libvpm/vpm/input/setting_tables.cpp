@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vpm/integrators/describe.h"
+#include "vpm/integrators/every_setting.h"
 
 namespace vpm {
 namespace {

@@ -40,13 +40,4 @@ std::optional<std::string> field_of(std::string_view line, std::string_view key)
 /// The integrator that such a line names, as it is called today; nothing where it names none.
 std::optional<std::string> integrator_of(std::string_view line);
 
-/// A setting that some components have, and what must be chosen for it.
-struct SettingOfSome {
-  Setting setting;
-  std::vector<std::string> integrators;  // that have it; empty: all
-  std::string with;                      // the other choices: "`type` = `"nearest"`", or ""
-};
-/// Every setting that there is, table by table. Several have one key where components mean different things by it.
-const std::vector<SettingOfSome>& every_setting();
-
 }  // namespace vpm

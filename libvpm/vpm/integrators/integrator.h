@@ -37,8 +37,8 @@ struct IntegratorInfo {
 };
 const IntegratorInfo& info_of(Integrator integrator);
 
-/// Makes pass number `pass` ready, which the scene must outlive; of combined techniques with the shares of so many
-/// light sub-paths, see CombinedPass.
+/// Makes pass number `pass` ready; the scene must live longer than what is returned. `paths_of_shares` is for combined
+/// techniques, see CombinedPass.
 RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares = 0);
 
 }  // namespace vpm

@@ -28,10 +28,14 @@ void check_strategy(const RenderSettings& s, const SceneFacts& facts) {
   refuse_if(facts.grids && !strategy_info(s.distance.strategy).heterogeneous, "integrator.distance.type",
             "the strategy '" + s.distance.strategy + "' is wrong in a grid medium, and the scene has one",
             listed("right in grids", strategies_that(&StrategyInfo::heterogeneous)));
-  for (const auto& [name, number] : s.distance.parameters)
-    refuse_if(among(strategy_info(s.distance.strategy).parameters, {{name, number}}).empty(),
-              ("integrator.distance." + name).c_str(), "the strategy '" + s.distance.strategy + "' has no such number",
-              "leave it out, or name another strategy");
+}
+
+/// Numbers by name are those of the component that is chosen.
+void check_numbers(const Parameters& given, std::span<const Parameter> list, const std::string& table,
+                   const std::string& component) {
+  for (const auto& [name, number] : given)
+    refuse_if(among(list, {{name, number}}).empty(), (table + "." + name).c_str(),
+              "'" + component + "' has no number of that name", "leave it out, or name another type");
 }
 
 /// The pictures of a pass, cut to the camera's crop.
@@ -48,6 +52,12 @@ Pass cut(Pass pass, const Camera& camera) {
 void validate(const RenderSettings& settings, const SceneFacts& facts) {
   check_values(settings);
   check_strategy(settings, facts);
+  const auto& [strategy, of_flights] = settings.distance;
+  check_numbers(of_flights, strategy_info(strategy).parameters, "integrator.distance", strategy);
+  for (const EstimatorInfo& info : transmittance_estimators())
+    if (info.name == settings.transmittance.estimator)
+      check_numbers(settings.transmittance.parameters, info.parameters, "integrator.transmittance",
+                    settings.transmittance.estimator);
   info_of(settings.integrator).check(settings, facts);
 }
 

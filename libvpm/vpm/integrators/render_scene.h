@@ -26,7 +26,7 @@ void validate_light_map(const RenderSettings& settings, const SceneFacts& facts)
 /// size than the camera's film, and NoPassFits.
 RenderResult render(const Scene& scene, const RenderSettings& settings, RenderResult result,
                     const RunControl& control = {});
-/// The passes of render(): of the scene and the settings, which must live until then.
+/// The passes of render(): of the scene and the settings, which must live longer than what is returned.
 PassMaker pass_maker(const Scene& scene, const RenderSettings& settings);
 /// Throws what render() throws before its first pass.
 void check_begun(const Scene& scene, const RenderSettings& settings, const RenderResult& result);

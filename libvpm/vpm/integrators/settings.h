@@ -1,5 +1,5 @@
 // The settings of a render. Plain values; the defaults here are those of scene files, but for
-// that of the distance strategy of photon maps (integrators/describe.cpp).
+// that of the distance strategy of photon maps, and of `emitted` where `stored` is given.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,6 @@
 #include "vpm/base/fnv.h"
 #include "vpm/base/lines.h"
 #include "vpm/film/view_layers.h"
-#include "vpm/integrators/photon_map/plan.h"
 #include "vpm/integrators/render_scene.h"
 #include "vpm/render/counted_fields.h"
 
@@ -193,7 +192,7 @@ Identity checkpoint_identity(const std::filesystem::path& path) {
 }
 
 uint64_t checkpoint_bytes(const RenderJob& job) {
-  const bool discs = job.settings.radii == RadiusSchedule::per_pixel && facts_of(job.scene).rough_surfaces;
+  const bool discs = pass_maker(job.scene, job.settings).ordered && facts_of(job.scene).rough_surfaces;
   const Camera& camera = job.scene.camera;
   const auto count = [](int width, int height) { return static_cast<uint64_t>(width) * static_cast<uint64_t>(height); };
   const PixelRect rendered = camera.rendered();

@@ -41,8 +41,7 @@ std::string text_of_lost_light(const Scene& scene, const RenderSettings& setting
     return "";
   return fmt::format(
       "paths do not find what {} may send by way of mirrors or glass, as no ray hits what has no extent: where there "
-      "is "
-      "such light, the picture lacks it; another integrator finds it, and paths do once the light has an extent",
+      "is such light, the picture lacks it; another integrator finds it, and paths do once the light has an extent",
       text_of_lights(lights, names));
 }
 
@@ -55,8 +54,7 @@ std::string text_of_kernel_light(const Scene& scene, const RenderSettings& setti
     return "";
   return fmt::format(
       "what {} may send by way of mirrors or glass to what is seen over others is found by kernels alone, and has "
-      "their "
-      "bias with nothing to check it by: no ray hits what has no extent",
+      "their bias with nothing to check it by: no ray hits what has no extent",
       text_of_lights(lights, names));
 }
 

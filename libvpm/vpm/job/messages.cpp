@@ -57,8 +57,7 @@ void warn_of_short_counts(const EyeCounters& eye, std::vector<std::string>& warn
     if (share > kMost)
       warnings.push_back(fmt::format(
           "{:.1f} % of the gathers by count met fewer photons than the count of [integrator.{}] within the largest "
-          "radius, and took "
-          "that: a larger radius or more photons give the count its meaning",
+          "radius, and took that: a larger radius or more photons give the count its meaning",
           100.0 * share, section));
   };
   warn(eye.by_count_in_media, eye.short_in_media, "volume");

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
 #include <algorithm>
+
+#include "vpm/integrators/every_setting.h"
 
 namespace vpm {
 namespace {

@@ -42,7 +42,7 @@ bool surfaces_sum_by_nodes(const Scene& scene, const RenderSettings& settings) {
     return !is_rough(material) || is_diffuse(material);
   };
   return settings.integrator == Integrator::photon && sums_by_nodes(settings.surface) &&
-         settings.caustics.emitted == 0 &&
+         settings.aimed_photons() == 0 &&
          std::all_of(scene.materials.begin(), scene.materials.end(), sums_or_gathers_nothing);
 }
 

@@ -4,7 +4,6 @@
 #include <charconv>
 
 #include "vpm/input/node.h"
-#include "vpm/integrators/describe.h"
 
 namespace vpm {
 namespace {
@@ -81,22 +80,14 @@ const Node* find_node(const Node& root, const std::vector<std::string>& keys) {
   return node;
 }
 
-/// The value of a setting that nothing is said of; "" where there is none of that key by default.
-std::string usual_value(const std::string& key) {
-  RenderSettings usual;
-  const std::optional<Setting> setting = find_setting(usual, key);
-  return setting ? text_of(setting->usual) : "";
-}
-
-/// Notes that a setting of the integrator is to have another value.
+/// Notes that a setting of the integrator is to have a value.
 void note_replacement(Document& document, const std::vector<std::string>& keys, const Node& value,
                       const Source* option) {
   if (keys.front() != "integrator" || value.table()) return;
   const Node* const said = find_node(document.root, keys);
   if (said && said->table()) return;
-  const std::string key = fmt::format("{}", fmt::join(keys, ".")), after = text_of(value);
-  const std::string before = said ? text_of(*said) : usual_value(key);
-  if (before != after) document.replaced.push_back({key, before, after, said != nullptr, option});
+  const auto before = said ? std::optional(text_of(*said)) : std::nullopt;
+  document.replaced.push_back({fmt::format("{}", fmt::join(keys, ".")), before, text_of(value), option});
 }
 
 }  // namespace

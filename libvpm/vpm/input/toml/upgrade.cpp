@@ -232,6 +232,12 @@ class UpgradedScene {
     after.erase(0, after.find_first_not_of('\n'));
     if (!tables.empty() && !before.empty()) before += "\n";
     if (!after.empty() && !(before + tables).empty()) after = "\n" + after;
+    for (const Moved& each : statements_)
+      for (const char* const gone : {"long-beams", "planes"})
+        if (each.key == "integrator.techniques" &&
+            ("+" + each.value + "+").find(std::string("+") + gone + "+") != std::string::npos)
+          upgraded.notes.push_back(
+              fmt::format("integrator.techniques names \"{}\", which is none any more: take it out", gone));
     upgraded.text = before + tables + after;
     return upgraded;
   }

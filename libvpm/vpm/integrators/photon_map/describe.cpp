@@ -62,21 +62,13 @@ void describe_gather_on_surfaces(G& gather, Description& d, const std::string& t
   describe_kernel(gather, d);
 }
 
-/// The correction at borders is also that of the caustic map.
-void describe_surface(S& s, Description& d) {
-  describe_gather_on_surfaces(s.surface, d, "integrator.surface");
-  const auto set = [&s](const SettingValue& value) {
-    set_member(s.surface.boundary, value);
-    s.caustics.boundary = s.surface.boundary;
-  };
-  d.add("boundary", {{},
-                     "",
-                     "`\"corrected\"`: no dark rims at the edges of surfaces, and no light through thin walls, see "
-                     "below; for the caustic map, too",
-                     words_of<BoundaryRule>(2),
-                     word_of(BoundaryRule::none),
-                     [&s] { return SettingValue(word_of(s.surface.boundary)); },
-                     set});
+void describe_surface(G& surface, Description& d) {
+  describe_gather_on_surfaces(surface, d, "integrator.surface");
+  Members<G>(surface, d)
+      .add(
+          "boundary", &G::boundary, words_of<BoundaryRule>(2),
+          "`\"corrected\"`: no dark rims at the edges of surfaces, and no light through thin walls, see below; for the "
+          "caustic map, too");
 }
 
 void describe_single_scattering(SingleScatteringSettings& s, Description& d) {
@@ -143,7 +135,7 @@ void describe_photon_maps(RenderSettings& s, Description& d) {
   const StrategyInfo* const flights = find_strategy(s.distance.strategy);
   describe(s.volume, flights && flights->analog, d.in("integrator.volume"));
   describe_single_scattering(s.single_scattering, d);
-  describe_surface(s, d);
+  describe_surface(s.surface, d);
   describe_light_on_surfaces(s, d);
   describe(s.transmittance, d.in("integrator.transmittance"));
 }

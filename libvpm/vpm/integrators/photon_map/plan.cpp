@@ -64,8 +64,10 @@ std::unique_ptr<SurfaceEstimator> surface_estimator(const Scene& scene, const Re
   assert(settings.direct.type != DirectLight::equiangular);
   if (settings.direct.type == DirectLight::shadow_rays) direct.emplace(scene, transmittance, settings.direct.samples);
   if (settings.indirect.type == IndirectLight::final_gather) {
+    AskedGather caustics = settings.caustics;
+    caustics.boundary = settings.surface.boundary;
     const FinalGatherSettings gather{map,
-                                     {settings.caustics, map.pass},
+                                     {caustics, map.pass},
                                      settings.caustics.emitted,
                                      settings.indirect.rays,
                                      settings.indirect.rays_by == GatherBy::photons,

@@ -21,7 +21,8 @@ struct VolumeEstimatorInfo {
   bool collisions = true;                // has a map of these
   bool flights = false;                  // has a map of these
   bool planes = false;                   // makes planes of some, which cost shadow rays
-  void (*describe)(VolumeSettings&, Description&) = nullptr;  // what it has besides radius, kernel, form, boundary
+  void (*describe)(VolumeSettings&,
+                   Description&) = nullptr;  // what it has besides radius, kernel, form, boundary, density_floor
   void (*make)(const VolumePlan&, VolumeEstimators&) = nullptr;
 };
 

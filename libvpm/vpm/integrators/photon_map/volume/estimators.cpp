@@ -17,11 +17,7 @@ std::span<const VolumeEstimatorInfo> volume_estimators() {
   return all;
 }
 
-VolumeSettings::VolumeSettings(std::string_view type, const AskedGather& gather) : AskedGather(gather) {
-  const uint32_t own_radii = beam_count;
-  choose(type);
-  beam_count = own_radii;
-}
+VolumeSettings::VolumeSettings(std::string_view type, const AskedGather& gather) : AskedGather(gather) { choose(type); }
 
 const VolumeEstimatorInfo& VolumeSettings::info() const {
   const auto all = volume_estimators();

@@ -1,4 +1,6 @@
 // All settings that there are, found by choosing each component once.
+#include "vpm/integrators/every_setting.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
