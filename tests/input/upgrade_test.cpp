@@ -93,7 +93,65 @@ TEST(Upgrade, SaysWhatComponentsDoNotHave) {
             "[render]\n\n[integrator]\ntype = 'path'\n\n[integrator.distance]\nstep = 2\ntype = 'ray-march'\n");
   EXPECT_EQ(paths.notes,
             std::vector<std::string>{
-                "integrator.photons.emitted is left out: the components that the file names do not have it"});
+                "integrator.photons.emitted is left out, with its comments: the components that the file names do not "
+                "have it"});
+  EXPECT_EQ(upgrade("old.toml", "[render]\nintegrator = 'auto'\n[photons]\nemitted = 5\n").notes,
+            std::vector<std::string>{"integrator.photons.emitted is left out, with its comments: type \"auto\" chooses "
+                                     "it, too; name a type to keep it"});
+}
+
+TEST(Upgrade, KeepsCommentsBelowAKeyAndHeadlinesWithTheirTable) {
+  EXPECT_EQ(upgraded(R"([render]
+passes = 2
+#passes = 20
+radii = "constant"
+
+# --- photons ---
+
+[photons]
+emitted = 4000
+# flights: all
+#flights = 100
+
+[volume]
+gather = "beam"
+#radius = 0.1
+# --- surfaces
+[surface]
+direct = "shadow-rays"
+# the last
+
+# --- camera
+[camera]
+fov = 40
+)"),
+            R"([render]
+passes = 2
+#passes = 20
+
+[integrator]
+radii = "constant"
+
+# --- photons ---
+
+[integrator.photons]
+emitted = 4000
+# flights: all
+#flights = 100
+
+[integrator.volume]
+type = "beam"
+#radius = 0.1
+
+# --- surfaces
+[integrator.direct]
+type = "shadow-rays"
+# the last
+
+# --- camera
+[camera]
+fov = 40
+)");
 }
 
 TEST(Upgrade, ReadsValuesOfSeveralLines) {

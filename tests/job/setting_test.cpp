@@ -206,7 +206,8 @@ TEST(Setting, OfSomeComponentsSaysOfWhich) {
   const auto with = [](const std::string& key) {
     std::string all;
     for (const SettingOfSome& each : every_setting())
-      if (each.setting.key == key) all += fmt::format("[{}: {}]", fmt::join(each.integrators, ", "), each.with);
+      if (each.setting.key == key)
+        all += fmt::format("[{}: {}]", fmt::join(each.integrators, ", "), fmt::join(each.with, "; "));
     return all;
   };
   EXPECT_EQ(with("render.passes"), "[: ]");

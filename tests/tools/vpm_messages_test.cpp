@@ -65,7 +65,7 @@ TEST_F(VpmRender, InfoRefusesWhatRenderRefuses) {
       {{"integrator.volume.kernel=order-4", "integrator.surface.kernel=order-4", "integrator.radii=per-pixel"}, ""},
       {{"integrator.photons.emitted=0"}, "make one of them positive"},
       {{"integrator.transmittance.type=ratio", "integrator.direct.type=photons"}, "write type = \"shadow-rays\""},
-      {{"integrator.distance.type=homogeneous"}, "right in grids: "},
+      {{"integrator.distance.type=homogeneous"}, "for grids: "},
       {{"integrator.volume.count=7"}, ""},
       {{"media.smoke.grid=fog"}, "the file holds: density"},
       {{"shapes.0.inside=smoke"}, ""}};

@@ -1,5 +1,6 @@
 // vpm upgrade: files of older versions with the keys of today.
 #include <fmt/format.h>
+#include <cstdio>
 #include <filesystem>
 
 #include "commands.h"
@@ -21,6 +22,12 @@ void upgrade_file(const std::string& path, const std::string& output) {
   const Upgraded upgraded = upgrade(path, before);
   for (const std::string& note : upgraded.notes) fmt::print(stderr, "note: {}: {}\n", path, note);
   if (output.empty() && upgraded.text == before) return fmt::print("{}: has no old keys\n", path);
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!output.empty()) {
+    if (std::filesystem::exists(output)) throw InputError(fmt::format("{}: there is such a file already", output));
+    if (std::filesystem::path(output).parent_path() != folder)
+      fmt::print(stderr, "note: {}: files that it names are looked for from its own folder now\n", output);
+  }
   const std::string kept = path + ".old";
   if (output.empty()) {
     if (std::filesystem::exists(kept))
@@ -42,8 +49,15 @@ int upgrade_command(const UpgradeOptions& options) {
   if (options.files.size() > 1 && !options.output.empty())
     throw InputError(
         "-o names one file, and there are several to rewrite: leave it out, and each is rewritten in place");
-  for (const std::string& path : options.files) upgrade_file(path, options.output);
-  return 0;
+  int status = 0;
+  for (const std::string& path : options.files) try {
+      upgrade_file(path, options.output);
+    } catch (const InputError& error) {
+      std::fflush(stdout);
+      fmt::print(stderr, "vpm: {}\n", error.what());
+      status = 2;
+    }
+  return status;
 }
 
 }  // namespace vpm::tools

@@ -116,8 +116,9 @@ class HdrReader {
     const bool rows = is_axis(axes[0], 'Y') && is_axis(axes[1], 'X');
     if (!read || (!rows && !(is_axis(axes[0], 'X') && is_axis(axes[1], 'Y'))))
       refuse("its size '" + line + "' is not as -Y HEIGHT +X WIDTH");
-    constexpr int64_t kMost = 65536, kMostPixels = (1 << 30) / sizeof(Rgb);
-    if (std::min(sizes[0], sizes[1]) < 1 || std::max(sizes[0], sizes[1]) > kMost || sizes[0] * sizes[1] > kMostPixels)
+    constexpr int64_t kMost = 65536, kPixelsOfOneGiB = (1 << 30) / sizeof(Rgb);
+    if (std::min(sizes[0], sizes[1]) < 1 || std::max(sizes[0], sizes[1]) > kMost ||
+        sizes[0] * sizes[1] > kPixelsOfOneGiB)
       refuse(fmt::format("its {} x {} pixels need more than 1 GiB, or are none", sizes[rows ? 1 : 0],
                          sizes[rows ? 0 : 1]));
     if (static_cast<size_t>(sizes[0]) > (bytes_.size() - at_) / sizeof(Pixel)) refuse("it ends within its pixels");

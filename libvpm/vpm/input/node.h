@@ -73,7 +73,8 @@ std::unique_ptr<Node> parse_toml_value(const std::string& text, const Source* so
 
 /// Applies `key.path=value`: the value is read as a TOML value, or taken as a string where it is none. An element of an
 /// array of tables is addressed by its number (from 0) or its name. Only the last key and sections of the file (the
-/// path's first key, and all of the integrator) may be new. Errors start with "--set key.path=value:".
+/// path's first key, all of the integrator, and in experiments all from "set" on) may be new. Errors start with "--set
+/// key.path=value:".
 void apply_override(Document& document, const std::string& option);
 
 }  // namespace vpm

@@ -30,32 +30,48 @@ std::string read_word_set(TableReader& table, const std::string& key, const Word
   return joined;
 }
 
+bool holds(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 /// Without what holds already: the integrator that is chosen.
 std::string condition(const SettingOfSome& each, const std::string& integrator) {
-  const auto& all = each.integrators;
-  std::string text;
-  if (!all.empty() && std::find(all.begin(), all.end(), integrator) == all.end())
-    text = fmt::format("type = \"{}\" of [integrator]{}", fmt::join(all, "\", \""), each.with.empty() ? "" : "; ");
-  text += each.with;
+  std::vector<std::string> all;
+  if (!each.integrators.empty() && !holds(each.integrators, integrator))
+    all.push_back(fmt::format("type = \"{}\" of [integrator]", fmt::join(each.integrators, "\", \"")));
+  all.insert(all.end(), each.with.begin(), each.with.end());
+  std::string text = fmt::format("{}", fmt::join(all, " and "));
   std::erase(text, '`');
   return text;
 }
 
-/// Where a key that these components do not have is one: "there is 'count' with type = "nearest"; ". Of a table that
-/// of its first key.
-std::string elsewhere(const std::string& path, const std::string& key, const std::string& integrator) {
-  std::string here, tables;
+/// Of all settings of a table, as if it were one.
+std::optional<SettingOfSome> all_of_table(const std::string& path) {
+  std::optional<SettingOfSome> all;
   for (const SettingOfSome& each : every_setting()) {
-    const Setting& setting = each.setting;
-    const bool in_table = (setting.table() + ".").starts_with(path + "." + key + ".");
-    if (setting.key == path + "." + key || (in_table && here.empty()))
-      here += (here.empty() ? "" : "; or ") + condition(each, integrator);
-    const std::string title = "[" + setting.table() + "]";
-    if (setting.name() == key && tables.find(title) == std::string::npos)
-      tables += (tables.empty() ? "" : ", ") + title;
+    if (!(each.setting.table() + ".").starts_with(path + ".")) continue;
+    if (!all) all = each;
+    for (const std::string& integrator : each.integrators)
+      if (!holds(all->integrators, integrator)) all->integrators.push_back(integrator);
   }
-  if (!here.empty()) return fmt::format("there is '{}' with {}; ", key, here);
-  return tables.empty() ? "" : fmt::format("there is '{}' in {}; ", key, tables);
+  return all;
+}
+
+/// Where a key that these components do not have is one: "there is 'count' with type = "nearest"; ".
+std::string elsewhere(const std::string& path, const std::string& key, const std::string& integrator) {
+  std::vector<std::string> conditions, tables;
+  if (const auto table = all_of_table(path + "." + key)) conditions = {condition(*table, integrator)};
+  for (const SettingOfSome& each : every_setting()) {
+    const std::string title = "[" + each.setting.table() + "]";
+    if (each.setting.key == path + "." + key) conditions.push_back(condition(each, integrator));
+    if (each.setting.name() == key && !holds(tables, title)) tables.push_back(title);
+  }
+  const std::string chosen = integrator == kAuto && path.starts_with("integrator")
+                                 ? "\"auto\" chooses all of [integrator]: name its 'type' to give it other keys; "
+                                 : "";
+  if (!conditions.empty())
+    return fmt::format("{}there is '{}' with {}; ", chosen, key, fmt::join(conditions, ", or with "));
+  return tables.empty() ? chosen : fmt::format("{}there is '{}' in {}; ", chosen, key, fmt::join(tables, ", "));
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ std::string needed(const Found& found, const Setting& choice) {
     for (const std::string& word : words->words)
       (has(with(found.chosen, choice.key, word), found.setting) ? right : wrong).push_back(word);
     if (wrong.empty()) return "";
-    return wrong.size() < 3 && right.size() > wrong.size() ? fmt::format("`{}` but {}", name, quoted(wrong))
+    return wrong.size() < 3 && right.size() > wrong.size() ? fmt::format("`{}` other than {}", name, quoted(wrong))
                                                            : fmt::format("`{}` = {}", name, quoted(right));
   }
   if (const auto* integers = std::get_if<Integers>(&choice.domain); integers && integers->lo == 0)
@@ -125,13 +125,13 @@ std::string needed(const Found& found, const Setting& choice) {
   return "";
 }
 
-std::string conditions(const Found& found) {
+std::vector<std::string> conditions(const Found& found) {
   RenderSettings chosen = found.chosen;
   std::vector<std::string> all;
   for (const Setting& choice : describe(chosen))
     if (choice.key != found.setting.key && choice.key != "integrator.type")
       if (std::string one = needed(found, choice); !one.empty()) all.push_back(std::move(one));
-  return fmt::format("{}", fmt::join(all, "; "));
+  return all;
 }
 
 /// Is every component one that the integrator can have?

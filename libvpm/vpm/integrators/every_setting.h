@@ -12,7 +12,7 @@ namespace vpm {
 struct SettingOfSome {
   Setting setting;
   std::vector<std::string> integrators;  // that have it; empty: all
-  std::string with;                      // the other choices: "`type` = `"nearest"`", or ""
+  std::vector<std::string> with;         // the other choices: "`type` = `"nearest"`"
 };
 /// Every setting that there is, table by table. Several have one key where components mean different things by it.
 const std::vector<SettingOfSome>& every_setting();

@@ -24,10 +24,19 @@ void check_values(RenderSettings settings) {
   }
 }
 
+/// Strategies for grids that the integrator has.
+std::vector<std::string> strategies_for_grids(RenderSettings settings) {
+  const std::optional<Setting> type = find_setting(settings, "integrator.distance.type");
+  std::vector<std::string> names = std::get<Words>(type->domain).words;
+  std::erase_if(names, [](const std::string& name) { return !strategy_info(name).heterogeneous; });
+  return names;
+}
+
 void check_strategy(const RenderSettings& s, const SceneFacts& facts) {
-  refuse_if(facts.grids && !strategy_info(s.distance.strategy).heterogeneous, "integrator.distance.type",
-            "the strategy '" + s.distance.strategy + "' is wrong in a grid medium, and the scene has one",
-            listed("right in grids", strategies_that(&StrategyInfo::heterogeneous)));
+  if (!facts.grids || strategy_info(s.distance.strategy).heterogeneous) return;
+  throw SettingError("integrator.distance.type",
+                     "the strategy '" + s.distance.strategy + "' is wrong in a grid medium, and the scene has one",
+                     listed("for grids", strategies_for_grids(s)));
 }
 
 /// Numbers by name are those of the component that is chosen.

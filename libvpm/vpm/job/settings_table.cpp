@@ -40,9 +40,10 @@ std::string text_of_domain(const Numbers& domain) { return text_of(domain.range)
 
 /// What must be chosen for a setting, the integrator first.
 std::string all_of(const SettingOfSome& each) {
-  std::string text = each.integrators.empty() ? "" : fmt::format("{}", fmt::join(in_quotes(each.integrators), ", "));
-  if (!text.empty() && !each.with.empty()) text += "; ";
-  return text + each.with;
+  std::vector<std::string> all;
+  if (!each.integrators.empty()) all.push_back(fmt::format("{}", fmt::join(in_quotes(each.integrators), ", ")));
+  all.insert(all.end(), each.with.begin(), each.with.end());
+  return fmt::format("{}", fmt::join(all, "; "));
 }
 
 std::vector<Row> rows() {

@@ -19,6 +19,8 @@ struct AutomaticSettings {
 
   bool any() const { return !keys.empty() || !left_out.empty(); }
   bool has(std::string_view key) const { return keys.contains(key) || left_out.contains(key); }
+  /// Those that a file could give values: where the integrator is "auto", it alone.
+  Keys to_be_named() const { return keys.contains("integrator.type") ? Keys{"integrator.type"} : keys; }
 };
 
 /// What a value is that may be "auto" and that a scene file and its options leave out: its default, or "auto". Where

@@ -62,7 +62,7 @@ void check_choices(const Entrant& entrant, CostUnit unit, const std::string& who
     throw InputError(
         fmt::format("{}: settings are chosen for a time, but budgets are in {}: name a value of {}, or write "
                     "unit = \"seconds\"",
-                    who, unit_name(unit), fmt::join(entrant.loaded.automatic.keys, ", ")));
+                    who, unit_name(unit), fmt::join(entrant.loaded.automatic.to_be_named(), ", ")));
 }
 
 /// `who` it is for, and its place in the experiment's file, as messages name it.

@@ -23,7 +23,7 @@ class SettingError : public InputError {
 /// Throws one where there is such a contradiction.
 void refuse_if(bool contradiction, const char* key, const std::string& wrong, const std::string& right);
 
-/// "right in grids: regular, delta-local": for what would be right. "did you mean ..." would mislead where a name
+/// "for grids: regular, delta-local": for what would be right. "did you mean ..." would mislead where a name
 /// exists, but belongs to something else.
 std::string listed(const char* title, const std::vector<std::string>& names);
 

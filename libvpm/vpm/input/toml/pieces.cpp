@@ -59,6 +59,23 @@ TomlPiece header_of(const std::string& line) {
   return piece;
 }
 
+/// Is it a statement that a comment puts out of action: "#flights = 100"?
+bool is_put_out(const std::string& comment) {
+  const std::string text = trimmed(comment.substr(comment.find('#') + 1));
+  const size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.");
+  return end != std::string::npos && end > 0 && trimmed(text.substr(end)).starts_with('=');
+}
+
+/// Comments that stand between two pieces: those that belong to the first go to it.
+void part_comments(TomlPiece& before, const TomlPiece& behind, std::vector<std::string>& comments) {
+  if (before.kind != TomlPiece::Kind::statement) return;
+  const auto end = behind.kind == TomlPiece::Kind::empty
+                       ? comments.end()
+                       : std::find_if_not(comments.begin(), comments.end(), is_put_out);
+  before.below.assign(comments.begin(), end);
+  comments.erase(comments.begin(), end);
+}
+
 }  // namespace
 
 Lines::Lines(std::string_view text) {
@@ -113,11 +130,19 @@ std::vector<TomlPiece> pieces_of(const std::string& name, const std::vector<std:
       comments.push_back(lines[i]);
       continue;
     }
+    const bool apart = !pieces.empty() && pieces.back().kind == TomlPiece::Kind::empty;
+    if (line.empty() && apart && !comments.empty()) {  // a headline, which goes with what follows
+      comments.push_back(lines[i]);
+      continue;
+    }
     const bool header = line.starts_with('[');
+    const auto number = static_cast<uint32_t>(i + 1);
     TomlPiece piece = header         ? header_of(lines[i])
                       : line.empty() ? TomlPiece{.kind = TomlPiece::Kind::empty, .text = lines[i]}
                                      : statement_of(name, lines, i);
+    if (!pieces.empty()) part_comments(pieces.back(), piece, comments);
     if (header) table = piece.table;
+    piece.line = number;
     piece.table = table;
     piece.comments = std::exchange(comments, {});
     pieces.push_back(std::move(piece));

@@ -1,6 +1,7 @@
 // A TOML file taken apart, so that some of it can be written anew and the rest stays as it is.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,10 +20,12 @@ struct Lines {
   std::string as_written(const std::string& text) const;
 };
 
-/// A piece of a file: a header, a statement, an empty line or the end, with the comments above it.
+/// A piece of a file: a header, a statement, an empty line or the end, with its comments: those above it; and right
+/// below a statement those that end at an empty line, or are statements put out of action.
 struct TomlPiece {
   enum class Kind { header, statement, empty, end } kind = Kind::empty;
-  std::vector<std::string> comments{};
+  uint32_t line = 0;  // of its text, from 1
+  std::vector<std::string> comments{}, below{};
   std::string text{};         // all lines, without the last line feed
   std::string table{};        // the header's, or the one that a statement stands in
   std::string written_key{};  // of a statement

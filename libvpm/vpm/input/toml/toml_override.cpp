@@ -1,6 +1,7 @@
 // Changing a parsed scene file by `key.path=value` options.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <charconv>
 
 #include "vpm/input/node.h"
@@ -129,11 +130,13 @@ void apply_override(Document& document, const std::string& option) {
   note_replacement(document, keys, value, source);
   Node* node = &document.root;
   std::string owner;
+  const auto set = static_cast<size_t>(std::find(keys.begin(), keys.end(), "set") - keys.begin());
+  const size_t tables_end = keys[0] == "integrator" ? 0 : set;  // from where on tables may be new
   for (size_t i = 0; i < keys.size(); ++i) {
     const bool is_last = i + 1 == keys.size(), of_list = !is_last && (is_number(keys[i + 1]) || keys[i + 1] == kNew);
     const Node made = of_list ? Node{place, Node::Array{}} : Node{place, Node::Table{}};
     if (auto* table = std::get_if<Node::Table>(&node->value))
-      node = &value_of(*table, keys[i], owner, i == 0 || is_last || keys[0] == "integrator" ? &made : nullptr, place);
+      node = &value_of(*table, keys[i], owner, i == 0 || is_last || i >= tables_end ? &made : nullptr, place);
     else if (auto* array = std::get_if<Node::Array>(&node->value))
       node = &element_of(*array, keys[i], owner, place);
     else

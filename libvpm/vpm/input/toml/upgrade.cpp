@@ -1,4 +1,4 @@
-// A file is taken apart into statements, each with the comments above it. In experiments a statement gets its new key
+// A file is taken apart into statements, each with its comments. In experiments a statement gets its new key
 // where it stands; in scenes it moves to a table of the integrator, and these follow where the first old table was.
 // What comes out is read again: it must be TOML, and have no old keys.
 #include "vpm/input/toml/upgrade.h"
@@ -56,29 +56,36 @@ bool is_old_table(const std::string& table) {
          });
 }
 
-/// The first old key of the tables of a scene, or of the settings of an experiment: "" where there is none.
-std::string old_key_in(const Node::Table& tables) {
+struct FoundKey {
+  std::string key;
+  Place place;
+};
+
+/// The first old key of the tables of a scene, or of the settings of an experiment, if there is any.
+std::optional<FoundKey> old_key_in(const Node::Table& tables) {
   for (const Entry& entry : tables) {
     const Node::Table* const inner = entry.node.table();
-    if (inner && is_old_table(entry.key)) return inner->empty() ? entry.key : entry.key + "." + inner->front().key;
+    if (inner && is_old_table(entry.key)) {
+      if (inner->empty()) return FoundKey{entry.key, entry.place};
+      return FoundKey{entry.key + "." + inner->front().key, inner->front().place};
+    }
     if (inner && entry.key == "render")
       for (const Entry& each : *inner)
-        if (find_old("render." + each.key)) return "render." + each.key;
+        if (find_old("render." + each.key)) return FoundKey{"render." + each.key, each.place};
   }
-  return "";
+  return std::nullopt;
 }
 
-std::string old_key_of_experiment(const Node& node) {
+std::optional<FoundKey> old_key_of_experiment(const Node& node) {
   if (const Node::Array* const array = node.array())
     for (const Node& element : *array)
-      if (std::string key = old_key_of_experiment(element); !key.empty()) return key;
-  if (!node.table()) return "";
+      if (auto found = old_key_of_experiment(element)) return found;
+  if (!node.table()) return std::nullopt;
   for (const Entry& entry : *node.table()) {
     const bool settings = (entry.key == "set" || entry.key == "product") && entry.node.table();
-    std::string key = settings ? old_key_in(*entry.node.table()) : old_key_of_experiment(entry.node);
-    if (!key.empty()) return key;
+    if (auto found = settings ? old_key_in(*entry.node.table()) : old_key_of_experiment(entry.node)) return found;
   }
-  return "";
+  return std::nullopt;
 }
 
 /// A statement with another key, and another value for some words.
@@ -103,27 +110,28 @@ std::array<std::pair<std::string, std::string>, 2> of_method(const std::string& 
 /// A statement on its way to a new table.
 struct Moved {
   std::string key;  // "integrator.volume.radius"
-  std::vector<std::string> comments;
+  std::vector<std::string> comments, below;
   std::string text;
   std::string value;
 };
 
 /// New keys and texts of a statement of an old key, with the new key written as `written` makes it of the whole.
 template <class Written>
-std::vector<Moved> moved(const std::string& name, const TomlPiece& piece, const OldKey& old, Written&& written) {
+std::vector<Moved> moved(const Source& source, const TomlPiece& piece, const OldKey& old, Written&& written) {
   if (old.old_key != "surface.method") {
     std::string text = with_key(piece.text, piece.written_key, written(std::string(old.key)));
-    return {{std::string(old.key), piece.comments, std::move(text),
+    return {{std::string(old.key), piece.comments, piece.below, std::move(text),
              piece.says("photon") ? "photon-map" : text_of(piece.value)}};
   }
   const auto* const method = std::get_if<std::string>(&piece.value.value);
   if (!method)
-    throw InputError(
-        fmt::format("{}: '{}' stands for two keys now, {}: write its values one by one", name, piece.key, old.key));
+    fail_at({&source, piece.line}, fmt::format("'{}' stands for two keys now, {}", piece.key, old.key),
+            "write a method of [[methods]] for each of its values, with both keys");
   std::vector<Moved> all;
   for (const auto& [key, value] : of_method(*method))
-    all.push_back({key, {}, written(key) + " = " + value, value.substr(1, value.size() - 2)});
+    all.push_back({key, {}, {}, written(key) + " = " + value, value.substr(1, value.size() - 2)});
   all.front().comments = piece.comments;
+  all.back().below = piece.below;
   if (const std::string comment = comment_behind(piece.text); !comment.empty()) all.front().comments.push_back(comment);
   return all;
 }
@@ -183,6 +191,7 @@ std::string new_tables(const std::vector<Moved>& statements,
       if (each.key.substr(0, each.key.rfind('.')) != table) continue;
       append(body, each.comments);
       body += each.text + "\n";
+      append(body, each.below);
     }
     if (body.empty()) continue;
     if (!text.empty()) text += "\n";
@@ -195,32 +204,30 @@ std::string new_tables(const std::vector<Moved>& statements,
 /// A scene without its old keys, and the tables of the new ones.
 class UpgradedScene {
  public:
-  explicit UpgradedScene(const std::string& name) : name_(name) {}
+  explicit UpgradedScene(const Source& source) : source_(source) {}
 
   void add(const TomlPiece& piece) {
     const bool statement = piece.kind == TomlPiece::Kind::statement, in_old_table = is_old_table(piece.table);
     const OldKey* const old = statement ? find_old(join(piece.table, piece.key)) : nullptr;
     if (statement && in_old_table && !old)
-      throw InputError(
-          fmt::format("{}: '{}' of [{}] is no key of an older version, either", name_, piece.key, piece.table));
+      fail_at({&source_, piece.line},
+              fmt::format("'{}' of [{}] is no key of an older version, either", piece.key, piece.table));
     if (in_old_table && !place_) place_ = left_.size();
     if (old) return move(piece, *old);
     if (!in_old_table) return leave(piece);
-    if (piece.kind == TomlPiece::Kind::header) {
-      headers_.insert(headers_.end(), piece.comments.begin(), piece.comments.end());
-      if (const std::string comment = comment_behind(piece.text); !comment.empty()) headers_.push_back(comment);
-    } else {
-      append(left_, piece.comments);
-    }
+    headers_.insert(headers_.end(), piece.comments.begin(), piece.comments.end());
+    if (piece.kind != TomlPiece::Kind::header) return;
+    if (const std::string comment = comment_behind(piece.text); !comment.empty()) headers_.push_back(comment);
   }
 
   Upgraded finish() {
     const std::set<std::string> keys = keys_of_components(statements_);
+    const char* const reason = keys.size() == 1 ? "type \"auto\" chooses it, too; name a type to keep it"
+                                                : "the components that the file names do not have it";
     Upgraded upgraded;
     std::erase_if(statements_, [&](const Moved& each) {
       if (keys.contains(each.key)) return false;
-      upgraded.notes.push_back(
-          fmt::format("{} is left out: the components that the file names do not have it", each.key));
+      upgraded.notes.push_back(fmt::format("{} is left out, with its comments: {}", each.key, reason));
       return true;
     });
     const std::string tables = new_tables(statements_, comments_of_tables_);
@@ -245,7 +252,7 @@ class UpgradedScene {
  private:
   void move(const TomlPiece& piece, const OldKey& old) {
     const auto name_alone = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
-    for (Moved& each : moved(name_, piece, old, name_alone)) {
+    for (Moved& each : moved(source_, piece, old, name_alone)) {
       std::vector<std::string>& comments = comments_of_tables_[each.key.substr(0, each.key.rfind('.'))];
       comments.insert(comments.end(), headers_.begin(), headers_.end());
       headers_.clear();
@@ -255,10 +262,11 @@ class UpgradedScene {
   void leave(const TomlPiece& piece) {
     append(left_, piece.comments);
     if (piece.kind != TomlPiece::Kind::end) left_ += piece.text + "\n";
+    append(left_, piece.below);
     if (piece.table == "render" && piece.kind == TomlPiece::Kind::statement) behind_render_ = left_.size();
   }
 
-  std::string name_;
+  const Source& source_;
   std::string left_;  // what stays as it is
   std::optional<size_t> place_, behind_render_;
   std::vector<std::string> headers_;  // the comments of old headers, until they have a table
@@ -266,7 +274,7 @@ class UpgradedScene {
   std::vector<Moved> statements_;
 };
 
-std::string upgraded_experiment(const std::string& name, const std::vector<TomlPiece>& pieces) {
+std::string upgraded_experiment(const Source& source, const std::vector<TomlPiece>& pieces) {
   std::string text;
   for (const TomlPiece& piece : pieces) {
     const std::string path = join(piece.table, piece.key);
@@ -276,19 +284,21 @@ std::string upgraded_experiment(const std::string& name, const std::vector<TomlP
     if (!old || own > at) {
       append(text, piece.comments);
       if (piece.kind != TomlPiece::Kind::end) text += with_inline_keys(piece.text) + "\n";
+      append(text, piece.below);
       continue;
     }
     const std::string before = path.substr(own, at - own);  // "set."
-    for (const Moved& each : moved(name, piece, *old, [&](const std::string& key) { return before + key; })) {
+    for (const Moved& each : moved(source, piece, *old, [&](const std::string& key) { return before + key; })) {
       append(text, each.comments);
       text += each.text + "\n";
+      append(text, each.below);
     }
   }
   return text;
 }
 
-Upgraded upgraded_scene(const std::string& name, const std::vector<TomlPiece>& pieces) {
-  UpgradedScene scene(name);
+Upgraded upgraded_scene(const Source& source, const std::vector<TomlPiece>& pieces) {
+  UpgradedScene scene(source);
   for (const TomlPiece& piece : pieces) scene.add(piece);
   return scene.finish();
 }
@@ -297,8 +307,7 @@ bool is_experiment(const Document& document) {
   return find_entry(*document.root.table(), "methods") || find_entry(*document.root.table(), "product");
 }
 
-/// The first old key; "" where there is none.
-std::string old_key_of(const Document& document) {
+std::optional<FoundKey> old_key_of(const Document& document) {
   return is_experiment(document) ? old_key_of_experiment(document.root) : old_key_in(*document.root.table());
 }
 
@@ -306,26 +315,26 @@ std::string old_key_of(const Document& document) {
 
 Upgraded upgrade(const std::string& name, const std::string& text) {
   const Document document = parse_toml(name, text);
-  if (old_key_of(document).empty()) return {text};
+  const std::optional<FoundKey> first = old_key_of(document);
+  if (!first) return {text};
   const Lines lines(text);
   const std::vector<TomlPiece> pieces = pieces_of(name, lines.lines);
+  const Source& source = *document.sources.front();
   Upgraded upgraded =
-      is_experiment(document) ? Upgraded{upgraded_experiment(name, pieces)} : upgraded_scene(name, pieces);
-  std::string left;
+      is_experiment(document) ? Upgraded{upgraded_experiment(source, pieces)} : upgraded_scene(source, pieces);
+  std::optional<Document> read;
   try {
-    left = old_key_of(parse_toml(name, upgraded.text));
+    read = parse_toml(name, upgraded.text);
   } catch (const InputError&) {
-    throw InputError(
-        fmt::format("{}: what stands there of {} cannot be rewritten: give each old table a header of its own, each "
-                    "old key a line, "
-                    "and take out what is of today",
-                    name, old_key_of(document)));
+    fail_at(first->place,
+            fmt::format("'{}', or another old key, cannot be rewritten: a key or table of today says the same, or it "
+                        "has no line of its own",
+                        first->key),
+            "take out what says the same, and give each old table a header, each old key a line");
   }
-  if (!left.empty())
-    throw InputError(
-        fmt::format("{}: '{}' cannot be rewritten where it stands: write it as a line of its own, in scenes below its "
-                    "table's header, in experiments as a dotted key",
-                    name, left));
+  if (const std::optional<FoundKey> left = old_key_of(*read))
+    fail_at(first->place, fmt::format("'{}' cannot be rewritten where it stands", left->key),
+            "write it as a line of its own, in scenes below its table's header, in experiments as a dotted key");
   upgraded.text = lines.as_written(upgraded.text);
   return upgraded;
 }

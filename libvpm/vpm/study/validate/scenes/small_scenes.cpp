@@ -77,15 +77,15 @@ Scene foggy_light() {
 }
 
 Scene small_cloud(Viewpoint viewpoint, const Rgb& thickness) {
-  constexpr int kVoxels = 17;
+  constexpr int kAcross = 17;
   Scene scene;
   const auto density = [](int x, int y, int z) {
-    const Vec3d p = 2.0 * Vec3d(x, y, z) / double{kVoxels - 1} - 1.0;
+    const Vec3d p = 2.0 * Vec3d(x, y, z) / double{kAcross - 1} - 1.0;
     const Vec3d hat = 1.0 - p * p;
     return hat.x * hat.y * hat.z * (1.0 + 0.6 * std::sin(4.0 * p.x + 2.0 * p.y) * std::cos(3.0 * p.z));
   };
   // Across the middle the density's integral is close to 4/3 m: this is the optical thickness there.
-  Medium medium = make_medium(make_grid(unit_frame(kVoxels), density), 0.75f * thickness, 0.9f);
+  Medium medium = make_medium(make_grid(unit_frame(kAcross), density), 0.75f * thickness, 0.9f);
   medium.phase = HenyeyGreenstein{-0.3f};
   add_medium_box(scene, medium);
   const Vec3 light(1.5f, 2.5f, 1.0f);
