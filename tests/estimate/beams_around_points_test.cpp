@@ -16,9 +16,9 @@ struct MarchedMean {
 };
 
 /// Of the light along a ray from the origin in the direction of x.
-MarchedMean marched_light(const Scene& scene, const PhotonBeamSettings& settings, const std::vector<PhotonBeam>& beams,
+MarchedMean marched_light(const Scene& scene, const VolumeSettings& settings, const std::vector<PhotonBeam>& beams,
                           const Interval& interval, int marches) {
-  BeamsAroundPoints estimator(scene, settings, 0.5f);
+  BeamsAroundPoints estimator(scene, settings, {}, 0.5f);
   static_cast<BeamRecorder*>(estimator.recorders()[0])->beams[0] = beams;
   RenderStatistics statistics;
   estimator.build(1, statistics);
@@ -38,10 +38,8 @@ MarchedMean marched_light(const Scene& scene, const PhotonBeamSettings& settings
   return {mean, glm::sqrt(glm::max(Rgbd(0.0), squares / n - mean * mean) / n)};
 }
 
-PhotonBeamSettings settings_of(KernelKind kernel) {
-  PhotonBeamSettings settings;
-  settings.maps.gather = {.radius = kDiscRadius, .kernel = kernel};
-  return settings;
+VolumeSettings settings_of(KernelKind kernel) {
+  return VolumeSettings("beams-points", {.radius = kDiscRadius, .kernel = kernel});
 }
 
 Scene endless(Medium medium) {
@@ -113,10 +111,10 @@ TEST(BeamsAroundPoints, ChromaticBeamsCarryTheWeightsOfTheirMixture) {
 // A long beam goes on, and is what the transmittance leaves of it.
 TEST(BeamsAroundPoints, LongBeamsAreAttenuated) {
   const Scene scene = endless(make_medium(nullptr, Rgb(0.7f)));
-  PhotonBeamSettings settings = settings_of(KernelKind::epanechnikov);
+  VolumeSettings settings = settings_of(KernelKind::epanechnikov);
   const PhotonBeam beam{Vec3(0.5f, 0.0f, -0.5f), 2.0f, Vec3(0.0f, 0.0f, 1.0f), Rgb(1.0f)};
   const double whole = marched_light(scene, settings, {beam}, {0.0f, 1.0f}, 100).mean.g;
-  settings.long_beams = true;
+  settings.length = BeamLength::long_beams;
   EXPECT_NEAR(marched_light(scene, settings, {beam}, {0.0f, 1.0f}, 100).mean.g / whole, std::exp(-0.35), 1e-5);
 }
 

@@ -30,11 +30,11 @@ struct Crossed {
 
   Rgb light_of(const std::vector<PhotonBeam>& beams, KernelKind kernel = KernelKind::epanechnikov,
                const std::vector<Photon>& collisions = {}) {
-    const AskedGather gather{.radius = kBeamRadius, .kernel = kernel};
-    VolumeMapSettings maps;
-    maps.gather = gather;
-    maps.form = form;
-    PhotonBeams estimator(scene, {.maps = maps, .long_beams = long_beams});
+    VolumeSettings settings("photon-beams", {.radius = kBeamRadius, .kernel = kernel});
+    settings.form = form;
+    settings.density_floor = 0.0f;
+    settings.length = long_beams ? BeamLength::long_beams : BeamLength::short_beams;
+    PhotonBeams estimator(scene, settings, {});
     static_cast<BeamRecorder*>(estimator.recorders()[0])->beams[0] = beams;
     static_cast<CollisionRecorder*>(estimator.recorders()[1])->photons[0] = collisions;
     RenderStatistics statistics;

@@ -41,9 +41,9 @@ Scene world_of(const Medium& medium, Between between) {
 
 /// The light of a plane and of beams, if any.
 Rgb light_of(const Scene& scene, const PhotonPlane* plane, bool alone, const std::vector<PhotonBeam>& beams = {}) {
-  VolumeMapSettings maps;
-  maps.gather = {.radius = kPlaneRadius};
-  PhotonPlanes estimator(scene, make_transmittance_estimator({}), {.beams = {.maps = maps}, .alone = alone});
+  VolumeSettings settings("photon-planes", {.radius = kPlaneRadius});
+  settings.share = alone ? PlaneUse::alone : PlaneUse::combined;
+  PhotonPlanes estimator(scene, make_transmittance_estimator({}), settings, {});
   const Recorders recorders = estimator.recorders();
   static_cast<BeamRecorder*>(recorders.front())->beams[0] = beams;
   if (plane)

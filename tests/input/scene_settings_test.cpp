@@ -91,11 +91,9 @@ TEST(SceneFile, CorrectsAtBordersWhereAsked) {
   const RenderSettings volume = load_with("[integrator.volume]\nboundary = 'corrected'\n").settings;
   EXPECT_EQ(volume.volume.boundary, BoundaryRule::corrected);
   EXPECT_EQ(volume.surface.boundary, BoundaryRule::none);
-  EXPECT_EQ(volume.caustics.boundary, BoundaryRule::none);
   const RenderSettings surface = load_with("[integrator.surface]\nboundary = 'corrected'\n").settings;
   EXPECT_EQ(surface.volume.boundary, BoundaryRule::ends);  // the default
   EXPECT_EQ(surface.surface.boundary, BoundaryRule::corrected);
-  EXPECT_EQ(surface.caustics.boundary, BoundaryRule::corrected);  // goes with the surface's
   const RenderSettings plain = load_with(
                                    "[integrator.volume]\nboundary = 'none'\n"
                                    "[integrator.surface]\nboundary = 'none'\n")

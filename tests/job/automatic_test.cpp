@@ -334,6 +334,7 @@ TEST(Automatic, CountsLessOfManyNearestPhotons) {
   EXPECT_LT(share(diffuse), 0.2);
   EXPECT_EQ(share(glossy), 1.0);
   few.caustics.emitted = many.caustics.emitted = 1000;
+  few.indirect.type = many.indirect.type = IndirectLight::final_gather;
   EXPECT_EQ(share(diffuse), 1.0);
   few.caustics.emitted = many.caustics.emitted = 0;
   used.used_in_media = 1'000'000;

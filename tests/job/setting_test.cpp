@@ -145,7 +145,7 @@ TEST(Setting, IsTheMemberThatItsKeyNames) {
   EXPECT_EQ(s.volume.beam_count, 18u);
   EXPECT_EQ(s.volume.count, GatherSettings{}.count);
   s = chosen({{"integrator.surface.boundary", "corrected"}});
-  EXPECT_EQ(s.caustics.boundary, BoundaryRule::corrected);  // goes with the surface's
+  EXPECT_EQ(s.surface.boundary, BoundaryRule::corrected);
   s = chosen({{"integrator.distance.type", "ray-march"}, {"integrator.distance.step", "0.3"}});
   EXPECT_EQ(s.distance.parameters, (Parameters{{"step", 0.3f}}));
   EXPECT_FALSE(find_setting(s, "film.width"));

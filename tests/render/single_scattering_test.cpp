@@ -1,6 +1,6 @@
 // Single scattering at drawn distances: densities that are what they are said to be, exact radiance, and the march's
 // answer for every light, in fog and in grids.
-#include "vpm/integrators/photon_map/volume/single_scattering.h"
+#include "vpm/integrators/photon_map/volume/marched.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -49,9 +49,7 @@ SingleEquiangular equiangular(const Scene& scene, int pairs) { return {scene, ex
 
 /// By marching, in steps of that optical thickness.
 MarchedLight marched(const Scene& scene, float optical_step) {
-  std::vector<std::unique_ptr<MarchedSource>> sources;
-  sources.push_back(std::make_unique<SingleMarched>(scene, exact_transmittance()));
-  return {std::move(sources), optical_step};
+  return {std::nullopt, ScatteredOnce(scene, exact_transmittance()), optical_step};
 }
 
 /// Noise with empty layers, over [-1, 1]^3.

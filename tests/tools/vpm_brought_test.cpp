@@ -1,6 +1,8 @@
 // Files of other programs, after public bug reports, from the mesh or picture to what vpm says of it.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tools/vpm_binary.h"
 #include "vpm/image/exr.h"
 #include "vpm/image/metrics.h"
@@ -19,6 +21,7 @@ class VpmBrought : public VpmBinary {
   /// The picture of a scene with that mesh in the place of its own; `said`: what must be said, where it is not "".
   Image render(const std::string& folder, const std::string& scene, const std::string& shape, const std::string& mesh,
                const std::string& said = "") const {
+    std::filesystem::remove(path(scene));                                // of another call
     vpm_succeeds({"upgrade", file(folder + "/" + scene), "-o", scene});  // it has keys of its time
     const ProcessResult result = vpm_succeeds(
         {"render", scene, "-o", "picture.exr", "--set", "shapes." + shape + ".path=" + file(folder + "/" + mesh)});

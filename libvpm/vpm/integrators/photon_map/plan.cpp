@@ -8,7 +8,7 @@
 #include "vpm/integrators/photon_map/surface/pixel_radii.h"
 #include "vpm/integrators/photon_map/surface/surface_map.h"
 #include "vpm/integrators/photon_map/volume/estimators.h"
-#include "vpm/integrators/photon_map/volume/single_scattering.h"
+#include "vpm/integrators/photon_map/volume/marched.h"
 
 namespace vpm {
 namespace {
@@ -33,52 +33,44 @@ std::vector<float> radii_of_pixels(const Scene& scene, const RenderSettings& set
 std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& scene, const RenderSettings& settings,
                                                                 const PassOfMaps& pass,
                                                                 const SharedTransmittance& transmittance) {
-  const bool by_rays = settings.single_scattering.type != DirectLight::photons;
+  const DirectLight once = settings.single_scattering.type;
+  VolumePlan plan{scene,
+                  settings.volume,
+                  {.maps = pass, .once = once == DirectLight::photons, .seed = settings.seed},
+                  transmittance,
+                  settings.max_optical_step};
   // Photons that fly by another law than the medium's transmittance do not weigh 1/density where it is thin.
-  const bool analog = strategy_info(settings.distance.strategy).analog;
-  const VolumeSettings& volume = settings.volume;
-  VolumeEstimators made;
-  volume.info().make({.scene = scene,
-                      .settings = volume,
-                      .maps = {volume, volume.form, analog ? volume.density_floor : 0.0f, !by_rays, pass},
-                      .transmittance = transmittance,
-                      .max_optical_step = settings.max_optical_step,
-                      .seed = settings.seed},
-                     made);
-  auto& [estimators, marched] = made;
-  if (settings.single_scattering.type == DirectLight::equiangular)
+  if (!strategy_info(settings.distance.strategy).analog) plan.settings.density_floor = 0.0f;
+  std::vector<std::unique_ptr<VolumeEstimator>> estimators;
+  std::optional<VolumeMaps<PhotonMap>> around_points;
+  if (auto whole = settings.volume.info().make(plan))
+    estimators.push_back(std::move(whole));
+  else
+    around_points.emplace(scene, plan.settings, plan.pass, 3);
+  if (once == DirectLight::equiangular)
     estimators.push_back(std::make_unique<SingleEquiangular>(scene, transmittance, settings.single_scattering.samples));
-  if (settings.single_scattering.type == DirectLight::shadow_rays)
-    marched.push_back(std::make_unique<SingleMarched>(scene, transmittance));
-  if (!marched.empty())
-    estimators.push_back(std::make_unique<MarchedLight>(std::move(marched), settings.max_optical_step));
+  std::optional<ScatteredOnce> lights;
+  if (once == DirectLight::shadow_rays) lights.emplace(scene, transmittance);
+  if (around_points || lights)
+    estimators.push_back(
+        std::make_unique<MarchedLight>(std::move(around_points), std::move(lights), settings.max_optical_step));
   check_apart(estimators);
-  return std::move(estimators);
+  return estimators;
 }
 
 std::unique_ptr<SurfaceEstimator> surface_estimator(const Scene& scene, const RenderSettings& settings,
                                                     const PassOfMaps& pass, const PixelDiscs& discs,
                                                     const SharedTransmittance& transmittance) {
-  const SurfaceMapSettings map{settings.surface, pass};
   std::optional<SurfaceShadowRays> direct;
   assert(settings.direct.type != DirectLight::equiangular);
   if (settings.direct.type == DirectLight::shadow_rays) direct.emplace(scene, transmittance, settings.direct.samples);
-  if (settings.indirect.type == IndirectLight::final_gather) {
-    AskedGather caustics = settings.caustics;
-    caustics.boundary = settings.surface.boundary;
-    const FinalGatherSettings gather{map,
-                                     {caustics, map.pass},
-                                     settings.caustics.emitted,
-                                     settings.indirect.rays,
-                                     settings.indirect.rays_by == GatherBy::photons,
-                                     settings.indirect.irradiance == EndIrradiance::precomputed,
-                                     settings.max_events};
-    return std::make_unique<FinalGather>(scene, gather, std::move(direct));
-  }
+  if (settings.gathers_finally()) return std::make_unique<FinalGather>(scene, settings, pass, std::move(direct));
+  const AskedGather& gather = settings.surface;
   if (settings.radii == RadiusSchedule::per_pixel)
-    return std::make_unique<PixelRadii>(scene, map, radii_of_pixels(scene, settings, discs), std::move(direct));
-  if (direct) return std::make_unique<Progressive>(scene, map, std::move(*direct));
-  return std::make_unique<Visualise>(scene, map);
+    return std::make_unique<PixelRadii>(scene, gather, pass, radii_of_pixels(scene, settings, discs),
+                                        std::move(direct));
+  if (direct) return std::make_unique<Progressive>(scene, gather, pass, std::move(*direct));
+  return std::make_unique<Visualise>(scene, gather, pass);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "vpm/base/warp.h"
 #include "vpm/integrators/photon_map/eye_path.h"
-#include "vpm/integrators/photon_map/volume/single_scattering.h"
+#include "vpm/integrators/photon_map/volume/marched.h"
 #include "vpm/path/direct_light.h"
 #include "vpm/scene/build.h"
 #include "vpm/study/sample_moments.h"
@@ -121,9 +121,8 @@ Moments estimate_airlight_by_eye_path(const Airlight& a, DirectLight direct, uin
   if (direct == DirectLight::equiangular) {
     estimators.volume.push_back(std::make_unique<SingleEquiangular>(scene, transmittance, kPairs));
   } else {
-    std::vector<std::unique_ptr<MarchedSource>> sources;
-    sources.push_back(std::make_unique<SingleMarched>(scene, transmittance));
-    estimators.volume.push_back(std::make_unique<MarchedLight>(std::move(sources), kOpticalStep));
+    const ScatteredOnce lights(scene, transmittance);
+    estimators.volume.push_back(std::make_unique<MarchedLight>(std::nullopt, lights, kOpticalStep));
   }
   const EyeContext context{scene, estimators};
   return sample_moments(1, samples, seed, [&](Rng& rng, double* out) {

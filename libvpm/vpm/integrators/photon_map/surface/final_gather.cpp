@@ -9,22 +9,34 @@
 #include "vpm/surface/shading.h"
 
 namespace vpm {
-FinalGather::FinalGather(const Scene& scene, const FinalGatherSettings& settings,
+namespace {
+
+HitUse use_of_ends(const IndirectSettings& settings) {
+  return settings.irradiance == EndIrradiance::precomputed ? HitUse::surface_map_without_cache_points
+                                                           : HitUse::surface_map;
+}
+
+}  // namespace
+
+FinalGather::FinalGather(const Scene& scene, const RenderSettings& settings, const PassOfMaps& pass,
                          std::optional<SurfaceShadowRays> direct)
     : scene_(scene),
-      settings_(settings),
+      settings_(settings.indirect),
+      caustic_settings_(settings.caustics),
+      max_events_(settings.max_events),
+      pass_(pass),
       direct_(std::move(direct)),
-      ends_(scene, settings.ends, any_photon,
-            settings.precomputed ? HitUse::surface_map_without_cache_points : HitUse::surface_map),
-      caustic_photons_(scene, caustic_photons(!direct_, settings.caustics_emitted == 0), HitUse::other_map) {
-  if (settings.guided) guiding_photons_.emplace(scene, photon_from_rough, HitUse::other_map);
-  if (settings.precomputed) cache_points_.emplace(scene);
+      ends_(scene, settings.surface, pass, any_photon, use_of_ends(settings.indirect)),
+      caustic_photons_(scene, caustic_photons(!direct_, settings.caustics.emitted == 0), HitUse::other_map) {
+  caustic_settings_.boundary = settings.surface.boundary;
+  if (settings_.rays_by == GatherBy::photons) guiding_photons_.emplace(scene, photon_from_rough, HitUse::other_map);
+  if (settings_.irradiance == EndIrradiance::precomputed) cache_points_.emplace(scene);
 }
 
 std::vector<MapInfo> FinalGather::maps() const {
   MapInfo ends = ends_.info();
-  ends.shows_bias = !settings_.precomputed;
-  return {ends, {"caustics", 2, true, nullptr, &caustic_photons_.photons, settings_.caustics_emitted}};
+  ends.shows_bias = !cache_points_;
+  return {ends, {"caustics", 2, true, nullptr, &caustic_photons_.photons, caustic_settings_.emitted}};
 }
 
 Recorders FinalGather::recorders() {
@@ -36,10 +48,10 @@ Recorders FinalGather::recorders() {
 
 /// Adds caustic photons that are aimed, with powers as if they were as many as the others.
 void FinalGather::trace_more(const TracedPass& pass, RenderStatistics& statistics) {
-  if (settings_.caustics_emitted == 0) return;
+  if (caustic_settings_.emitted == 0) return;
   const Stopwatch tracing;
   const TraceSettings& trace = pass.settings;
-  CausticSettings aimed{trace.seed, trace.pass, settings_.caustics_emitted, trace.max_events, nullptr};
+  CausticSettings aimed{trace.seed, trace.pass, caustic_settings_.emitted, trace.max_events, nullptr};
   if (trace.guide) aimed.importance = &trace.guide->importance;
   const auto share = static_cast<float>(static_cast<double>(pass.emitted) / static_cast<double>(aimed.emitted));
   for (Photon& photon : trace_caustics(scene_, pass.strategy, aimed)) {
@@ -52,15 +64,14 @@ void FinalGather::trace_more(const TracedPass& pass, RenderStatistics& statistic
 
 void FinalGather::build(uint64_t emitted, RenderStatistics& statistics) {
   ends_.build(statistics);
-  const auto& [gather, pass] = settings_.caustics;
   statistics.caustic_photons = caustic_photons_.photons.size();
-  caustics_ = make_map(caustic_photons_.photons, gather_in_pass(gather, first_radius(gather, scene_), 2, pass), emitted,
-                       pass, statistics);
+  const GatherSettings gather = gather_in_pass(caustic_settings_, first_radius(caustic_settings_, scene_), 2, pass_);
+  caustics_ = make_map(caustic_photons_.photons, gather, emitted, pass_, statistics);
   if (guiding_photons_) {
     GatherSettings nearest = kGuidingPhotons;
     nearest.radius = kDefaultSearch * scene_.bounds.diagonal();
     statistics.guiding_photons = guiding_photons_->photons.size();
-    guiding_ = make_map(guiding_photons_->photons, nearest, emitted, pass, statistics);
+    guiding_ = make_map(guiding_photons_->photons, nearest, emitted, pass_, statistics);
   }
   if (cache_points_) {
     irradiance_ = IrradianceCache(cache_points_->points, ends_.map(), statistics.eye.gather);
@@ -98,7 +109,7 @@ KernelEstimate FinalGather::gathered(const SurfaceView& view, EyeWork& work) con
 }
 
 GatherGuide FinalGather::make_guide(const SurfaceView& view, EyeWork& work) const {
-  if (!settings_.guided) return GatherGuide(view);
+  if (!guiding_photons_) return GatherGuide(view);
   count(work.counters.surface_queries);
   return {view, guiding_, work.gather()};
 }
@@ -111,7 +122,7 @@ GatherGuide FinalGather::make_guide(const SurfaceView& view, EyeWork& work) cons
 KernelEstimate FinalGather::met_along(PathState path, EyeWork& work) const {
   KernelEstimate result;
   float length = 0.0f;  // of the present ray so far, m
-  for (int events = 0; events < settings_.max_events;) {
+  for (int events = 0; events < max_events_;) {
     if (length == 0.0f) count(work.counters.gather_rays);
     const Encounter met = meet(scene_, path.ray, kInfinity, path.medium, work.counters.walk);
     if (!met) return result;

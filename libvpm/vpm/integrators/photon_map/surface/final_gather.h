@@ -20,25 +20,16 @@
 #include "vpm/integrators/photon_map/surface/irradiance_cache.h"
 #include "vpm/integrators/photon_map/surface/surface_map.h"
 #include "vpm/integrators/photon_map/surface/surface_shadow_rays.h"
+#include "vpm/integrators/settings.h"
 #include "vpm/path/walk.h"
 
 namespace vpm {
 
-struct FinalGatherSettings {
-  SurfaceMapSettings ends;        // of the map that rays end in
-  SurfaceMapSettings caustics;    // of the caustic map
-  uint64_t caustics_emitted = 0;  // photons that are aimed at mirrors and glass, for that map; 0: it takes what the
-                                  // other photons bring
-  int rays = 8;                   // at each point of a surface that the eye sees, >= 1
-  bool guided = false;            // are up to half of them drawn to where photons came from?
-  bool precomputed = false;       // do they take the irradiance of cache points?
-  int max_events = 100'000;       // of one ray and the path that follows it; paths that are cut are counted
-};
-
 class FinalGather final : public SurfaceEstimator {
  public:
   /// Without `direct`, the caustic map also holds the light that comes straight from lights.
-  FinalGather(const Scene& scene, const FinalGatherSettings& settings, std::optional<SurfaceShadowRays> direct);
+  FinalGather(const Scene& scene, const RenderSettings& settings, const PassOfMaps& pass,
+              std::optional<SurfaceShadowRays> direct);
 
   std::vector<MapInfo> maps() const override;
   Recorders recorders() override;
@@ -55,7 +46,10 @@ class FinalGather final : public SurfaceEstimator {
   bool is_too_short(float length, const SurfaceView& view, EyeWork& work) const;
 
   const Scene& scene_;
-  FinalGatherSettings settings_;
+  IndirectSettings settings_;
+  CausticMapSettings caustic_settings_;
+  int max_events_;  // of one ray and the path that follows it; paths that are cut are counted
+  PassOfMaps pass_;
   std::optional<SurfaceShadowRays> direct_;
   SurfaceMap ends_;
   HitRecorder caustic_photons_;

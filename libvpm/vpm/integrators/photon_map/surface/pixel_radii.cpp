@@ -9,13 +9,13 @@
 
 namespace vpm {
 
-PixelRadii::PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, std::vector<float> radii,
+PixelRadii::PixelRadii(const Scene& scene, const AskedGather& gather, const PassOfMaps& pass, std::vector<float> radii,
                        std::optional<SurfaceShadowRays> direct)
     : radii_(std::move(radii)),
       direct_(std::move(direct)),
-      map_(scene, settings, direct_ ? indirect_photon : any_photon),
+      map_(scene, gather, pass, direct_ ? indirect_photon : any_photon),
       found_(radii_.size()) {
-  assert(settings.gather.mode == GatherMode::radius && settings.gather.boundary == BoundaryRule::none);
+  assert(gather.mode == GatherMode::radius && gather.boundary == BoundaryRule::none);
 }
 
 void PixelRadii::build(uint64_t, RenderStatistics& statistics) {

@@ -13,7 +13,7 @@ class PixelRadii final : public SurfaceEstimator {
  public:
   /// `radii` are those of the pixels in this pass, m. The map is gathered by radius, without correction at borders.
   /// Without `direct`, it also holds the light that comes straight from lights.
-  PixelRadii(const Scene& scene, const SurfaceMapSettings& settings, std::vector<float> radii,
+  PixelRadii(const Scene& scene, const AskedGather& gather, const PassOfMaps& pass, std::vector<float> radii,
              std::optional<SurfaceShadowRays> direct);
 
   std::vector<MapInfo> maps() const override { return {map_.info()}; }

@@ -36,9 +36,8 @@ bool has_diffuse(const Scene& scene) {
 
 void SurfaceMap::build(RenderStatistics& statistics) {
   statistics.surface_photons = hits_.photons.size();
-  const GatherSettings gather =
-      gather_in_pass(settings_.gather, first_radius(settings_.gather, scene_), 2, settings_.pass);
-  map_ = make_map(hits_.photons, gather, hits_.emitted_count, settings_.pass, statistics);
+  const GatherSettings gather = gather_in_pass(gather_, first_radius(gather_, scene_), 2, pass_);
+  map_ = make_map(hits_.photons, gather, hits_.emitted_count, pass_, statistics);
   if (has_diffuse(scene_)) statistics.photon_map_bytes += map_.prepare_sums_by_nodes();
   statistics.last_surface_radius = map_.settings.radius;
 }

@@ -8,12 +8,6 @@
 
 namespace vpm {
 
-/// The settings of estimators that gather photons of surfaces.
-struct SurfaceMapSettings {
-  AskedGather gather;
-  PassOfMaps pass;
-};
-
 /// The surface radiance estimate [Jarosz2008, eq. 7.5, corrected] at a hit, gathered as the settings of the map say,
 /// with or without the correction at borders.
 KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work);
@@ -22,9 +16,9 @@ KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const Surfa
 class SurfaceMap {
  public:
   /// A map of the photons that the filter takes.
-  SurfaceMap(const Scene& scene, const SurfaceMapSettings& settings, PhotonFilter filter,
+  SurfaceMap(const Scene& scene, const AskedGather& gather, const PassOfMaps& pass, PhotonFilter filter,
              HitUse use = HitUse::surface_map)
-      : scene_(scene), settings_(settings), hits_(scene, filter, use) {}
+      : scene_(scene), gather_(gather), pass_(pass), hits_(scene, filter, use) {}
 
   /// The map whose settings are in the table [integrator.surface] of the scene file.
   MapInfo info() const { return {"surface", 2, true, nullptr, &hits_.photons, hits_.emitted_count}; }
@@ -35,7 +29,8 @@ class SurfaceMap {
 
  private:
   const Scene& scene_;
-  SurfaceMapSettings settings_;
+  AskedGather gather_;
+  PassOfMaps pass_;
   HitRecorder hits_;
   PhotonMap map_;
 };
@@ -43,7 +38,8 @@ class SurfaceMap {
 /// All light of surfaces from their photon map, seen straight: what the map holds is what is seen.
 class Visualise final : public SurfaceEstimator {
  public:
-  Visualise(const Scene& scene, const SurfaceMapSettings& settings) : map_(scene, settings, any_photon) {}
+  Visualise(const Scene& scene, const AskedGather& gather, const PassOfMaps& pass)
+      : map_(scene, gather, pass, any_photon) {}
 
   std::vector<MapInfo> maps() const override { return {map_.info()}; }
   Recorders recorders() override { return {map_.recorder()}; }
@@ -57,8 +53,8 @@ class Visualise final : public SurfaceEstimator {
 /// Direct light of surfaces by shadow rays, all other from their photon map, whose radius shrinks from pass to pass.
 class Progressive final : public SurfaceEstimator {
  public:
-  Progressive(const Scene& scene, const SurfaceMapSettings& settings, SurfaceShadowRays direct)
-      : map_(scene, settings, indirect_photon), direct_(std::move(direct)) {}
+  Progressive(const Scene& scene, const AskedGather& gather, const PassOfMaps& pass, SurfaceShadowRays direct)
+      : map_(scene, gather, pass, indirect_photon), direct_(std::move(direct)) {}
 
   std::vector<MapInfo> maps() const override { return {map_.info()}; }
   Recorders recorders() override { return {map_.recorder()}; }

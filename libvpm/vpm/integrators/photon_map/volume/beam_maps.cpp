@@ -27,17 +27,18 @@ Rgb weight_along(const Medium& medium, const Ray& beam, const Rgb& power, float 
   return analog_weight(medium, channel_shares(power), counted_integral(medium, beam, s, counters), false);
 }
 
-void multiply_by_left(const Medium& medium, const PhotonBeamSettings& settings, const Vec3& origin,
-                      const BeamPlaces& found, Passed& passed, WalkCounters& counters) {
-  const bool fades = settings.long_beams || !is_grey(medium.sigma_t);
-  const bool by_density = settings.maps.form == VolumeForm::density_at_photon;
+void multiply_by_left(const Medium& medium, const VolumeSettings& settings, const Vec3& origin, const BeamPlaces& found,
+                      Passed& passed, WalkCounters& counters) {
+  const bool long_beams = settings.length == BeamLength::long_beams;
+  const bool fades = long_beams || !is_grey(medium.sigma_t);
+  const bool by_density = settings.form == VolumeForm::density_at_photon;
   if (!fades && !by_density) return;
   for (size_t i = 0; i < found.size; ++i) {
     const Vec3 direction(found.dx[i], found.dy[i], found.dz[i]);
     const Vec3 place = origin + Vec3(found.x[i], found.y[i], found.z[i]);
     Rgb left(1.0f);
     if (fades)
-      left = left_along(medium, settings.long_beams, {place - found.s[i] * direction, direction},
+      left = left_along(medium, long_beams, {place - found.s[i] * direction, direction},
                         {found.r[i], found.g[i], found.b[i]}, found.s[i], counters);
     if (by_density) left *= medium.density(place);
     passed.r[i] *= left.r;

@@ -2,6 +2,7 @@
 // beams whose places nearest to a ray or a point are found.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "vpm/estimate/beam_estimate.h"
@@ -10,14 +11,6 @@
 #include "vpm/photon/photon_beam.h"
 
 namespace vpm {
-
-struct PhotonBeamSettings {
-  VolumeMapSettings maps;
-  uint64_t flights = 0;     // > 0: the most beams, of all media together
-  uint64_t seed = 1;        // of which of them
-  bool long_beams = false;  // do beams go on to where their rays leave the medium?
-  bool planes = false;      // are there planes, too?
-};
 
 /// What is left of the power of a photon at the distance `s` (m) on its flight, given that it has come so far: 1 in a
 /// grey medium; otherwise the weights of the mixture of channels. The ray begins where the flight does. Look-ups of
@@ -29,8 +22,8 @@ Rgb weight_along(const Medium& medium, const Ray& flight, const Rgb& power, floa
 /// far as to a place on the beam with the probability of the transmittance to it, so that this needs no further factor
 /// in a grey medium, whatever its density. In a chromatic one the weights of the mixture of channels are left. Long
 /// beams go on beyond the collision, and have the transmittance as a factor. Look-ups of density are counted.
-void multiply_by_left(const Medium& medium, const PhotonBeamSettings& settings, const Vec3& origin,
-                      const BeamPlaces& found, Passed& passed, WalkCounters& counters);
+void multiply_by_left(const Medium& medium, const VolumeSettings& settings, const Vec3& origin, const BeamPlaces& found,
+                      Passed& passed, WalkCounters& counters);
 
 /// The scattering coefficient, 1/m, that sums over beams are times: the densities that it goes by are in what passes to
 /// the eye, relative to the largest (at the query), or in what is left of the beams' powers (at the photon).
@@ -65,32 +58,34 @@ KernelPair<Rgbd> sum_beams(const BeamPlaces& found, const Passed& passed, const 
 template <class Map>
 class BeamMaps {
  public:
-  /// `dimension` of the kernel.
-  BeamMaps(const Scene& scene, const PhotonBeamSettings& settings, int dimension)
+  /// `dimension` of the kernel. Beside planes: what these leave to beams.
+  BeamMaps(const Scene& scene, const VolumeSettings& settings, const MediaPass& pass, int dimension,
+           std::optional<PlaneUse> planes = {})
       : scene_(scene),
         settings_(settings),
+        pass_(pass),
         dimension_(dimension),
-        flights_(scene, settings.maps.filter(), {settings.long_beams, settings.planes}) {}
+        flights_(scene, pass.filter(planes != PlaneUse::alone),
+                 {.long_beams = settings.length == BeamLength::long_beams, .turns = planes == PlaneUse::combined}) {}
 
-  ScatteredLight finds() const { return {settings_.maps.once, true}; }
+  ScatteredLight finds() const { return {pass_.once, true}; }
   std::vector<MapInfo> maps() const {
     return {{.section = "volume", .dimension = dimension_, .flights = &flights_.beams}};
   }
   PhotonRecorder* recorder() { return &flights_; }
-  const PhotonBeamSettings& settings() const { return settings_; }
+  const VolumeSettings& settings() const { return settings_; }
   const Map& operator[](MediumId medium) const { return by_medium_[medium]; }
 
   template <class Make>
   void build(uint64_t emitted, RenderStatistics& statistics, Make&& make) {
-    const PassOfMaps& pass = settings_.maps.pass;
     const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
-    Rng rng(settings_.seed, rng_stream(RngUse::flight, static_cast<uint64_t>(pass.number)), 0);
+    Rng rng(pass_.seed, rng_stream(RngUse::flight, static_cast<uint64_t>(pass_.maps.number)), 0);
     for (const std::vector<PhotonBeam>& flights : flights_.beams) statistics.flights += flights.size();
     const float kept = thin(flights_.beams, settings_.flights, rng);
     statistics.last_volume_radius = 0.0f;  // the report has that of beams, not that of collisions
     for (size_t m = 0; m < scene_.media.size(); ++m) {
-      const float first = first_radius(settings_.maps.gather, scene_, scene_.media[m]);
-      const GatherSettings of_pass = gather_in_pass(settings_.maps.gather, first, dimension_, pass);
+      const float first = first_radius(settings_, scene_, scene_.media[m]);
+      const GatherSettings of_pass = gather_in_pass(settings_, first, dimension_, pass_.maps);
       const std::vector<PhotonBeam> beams = std::exchange(flights_.beams[m], {});
       statistics.beams += beams.size();
       statistics.last_volume_radius = std::max(statistics.last_volume_radius, of_pass.radius);
@@ -101,7 +96,8 @@ class BeamMaps {
 
  private:
   const Scene& scene_;
-  PhotonBeamSettings settings_;
+  VolumeSettings settings_;
+  MediaPass pass_;
   int dimension_;
   BeamRecorder flights_;
   std::vector<Map> by_medium_;

@@ -103,11 +103,9 @@ void photons_beside_bundle(const Vec3& apex, SegmentBundle bundle, const BeamMap
 }
 
 void BeamRadiance::build(uint64_t emitted, RenderStatistics& statistics) {
-  maps_.build(
-      emitted, statistics,
-      [&](std::vector<Photon>& photons, const GatherSettings& gather, float shrunk, uint64_t of, RenderStatistics& s) {
-        return make_beam_map(photons, gather, shrunk, of, maps_.settings().pass, s);
-      });
+  maps_.build(emitted, statistics,
+              [&](std::vector<Photon>& photons, const GatherSettings& gather, float shrunk, uint64_t of,
+                  RenderStatistics& s) { return make_beam_map(photons, gather, shrunk, of, maps_.pass(), s); });
 }
 
 void BeamRadiance::along_bundle(const Vec3& apex, SegmentBundle bundle) const {
@@ -135,8 +133,8 @@ extern const VolumeEstimatorInfo kBeamRadiance{
     .summary = "those within the radius of a whole stretch of the eye's ray, in one query",
     .along_rays = true,
     .describe = describe_own_radii,
-    .make = [](const VolumePlan& plan, VolumeEstimators& made) {
-      made.whole.push_back(std::make_unique<BeamRadiance>(plan.scene, along_rays(plan.maps)));
+    .make = [](const VolumePlan& plan) -> std::unique_ptr<VolumeEstimator> {
+      return std::make_unique<BeamRadiance>(plan.scene, along_rays(plan.settings), plan.pass);
     }};
 
 }  // namespace vpm

@@ -22,7 +22,8 @@ void photons_beside_bundle(const Vec3& apex, SegmentBundle bundle, const BeamMap
 
 class BeamRadiance final : public VolumeEstimator {
  public:
-  BeamRadiance(const Scene& scene, const VolumeMapSettings& settings) : maps_(scene, settings, 2) {}
+  BeamRadiance(const Scene& scene, const VolumeSettings& settings, const MediaPass& pass)
+      : maps_(scene, settings, pass, 2) {}
 
   ScatteredLight finds() const override { return maps_.finds(); }
   std::vector<MapInfo> maps() const override { return maps_.maps(); }

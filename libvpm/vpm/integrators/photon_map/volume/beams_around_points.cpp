@@ -60,7 +60,7 @@ KernelEstimate BeamsAroundPoints::along(const EyeSegment& segment, EyeWork& work
   const Interval near = clip(segment.ray, reach, map.beams.bounds(), radius);
   if (near.empty()) return {};
   const Medium& medium = *segment.medium();
-  const VolumeForm form = beams_.settings().maps.form;
+  const VolumeForm form = beams_.settings().form;
   const PassToEye pass(medium, medium.homogeneous() ? nullptr : &segment.integrals(work), form, region.mirrored());
   const KernelEstimate light =
       segment.throughput * scattering_of_beams(medium, form) * march({segment, region, pass, map}, near, work);
@@ -123,8 +123,9 @@ extern const VolumeEstimatorInfo kBeamsAroundPoints{
     .collisions = false,
     .flights = true,
     .describe = describe_flights,
-    .make = [](const VolumePlan& plan, VolumeEstimators& made) {
-      made.whole.push_back(std::make_unique<BeamsAroundPoints>(plan.scene, beams_of(plan), plan.max_optical_step));
+    .make = [](const VolumePlan& plan) -> std::unique_ptr<VolumeEstimator> {
+      return std::make_unique<BeamsAroundPoints>(plan.scene, along_rays(plan.settings), plan.pass,
+                                                 plan.max_optical_step);
     }};
 
 }  // namespace vpm

@@ -16,8 +16,8 @@ namespace vpm {
 /// is noise, and no bias. Where the radius reaches far beyond the beams, steps are as many as among these.
 class BeamsAroundPoints final : public VolumeEstimator {
  public:
-  BeamsAroundPoints(const Scene& scene, const PhotonBeamSettings& settings, float max_optical_step)
-      : beams_(scene, settings, 2), max_optical_step_(max_optical_step) {}
+  BeamsAroundPoints(const Scene& scene, const VolumeSettings& settings, const MediaPass& pass, float max_optical_step)
+      : beams_(scene, settings, pass, 2), max_optical_step_(max_optical_step) {}
 
   ScatteredLight finds() const override { return beams_.finds(); }
   std::vector<MapInfo> maps() const override { return beams_.maps(); }

@@ -2,6 +2,7 @@
 // folder has some, and estimators.cpp the list.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -11,7 +12,7 @@ namespace vpm {
 
 class Description;
 struct VolumePlan;
-struct VolumeEstimators;
+class VolumeEstimator;
 
 struct VolumeEstimatorInfo {
   std::string_view name;
@@ -23,7 +24,8 @@ struct VolumeEstimatorInfo {
   bool planes = false;                   // makes planes of some, which cost shadow rays
   void (*describe)(VolumeSettings&,
                    Description&) = nullptr;  // what it has besides radius, kernel, form, boundary, density_floor
-  void (*make)(const VolumePlan&, VolumeEstimators&) = nullptr;
+  /// Null: photons are gathered around the points of MarchedLight.
+  std::unique_ptr<VolumeEstimator> (*make)(const VolumePlan&) = nullptr;
 };
 
 std::span<const VolumeEstimatorInfo> volume_estimators();

@@ -33,13 +33,9 @@ void VolumeSettings::choose(std::string_view type) {
   beam_count = 0;
 }
 
-VolumeMapSettings along_rays(VolumeMapSettings maps) {
-  if (maps.gather.boundary == BoundaryRule::corrected) maps.gather.boundary = BoundaryRule::ends;
-  return maps;
-}
-
-PhotonBeamSettings beams_of(const VolumePlan& plan) {
-  return {along_rays(plan.maps), plan.settings.flights, plan.seed, plan.settings.length == BeamLength::long_beams};
+VolumeSettings along_rays(VolumeSettings settings) {
+  if (settings.boundary == BoundaryRule::corrected) settings.boundary = BoundaryRule::ends;
+  return settings;
 }
 
 namespace {

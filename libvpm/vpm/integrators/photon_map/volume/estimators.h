@@ -2,12 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "vpm/base/settings/setting.h"
-#include "vpm/integrators/photon_map/volume/beam_maps.h"
 #include "vpm/integrators/photon_map/volume/estimator_info.h"
-#include "vpm/integrators/photon_map/volume/marched.h"
 #include "vpm/integrators/photon_map/volume/volume_maps.h"
 #include "vpm/integrators/photon_map/volume/volume_settings.h"
 #include "vpm/medium/transmittance/estimator.h"
@@ -17,17 +14,10 @@ namespace vpm {
 /// What estimators of a pass are made of.
 struct VolumePlan {
   const Scene& scene;
-  const VolumeSettings& settings;
-  VolumeMapSettings maps;  // of that pass
+  VolumeSettings settings;
+  MediaPass pass;
   std::shared_ptr<const TransmittanceEstimator> transmittance;
   float max_optical_step;  // of a march
-  uint64_t seed;
-};
-
-/// Estimators, and sources that are asked at points of a march.
-struct VolumeEstimators {
-  std::vector<std::unique_ptr<VolumeEstimator>> whole;
-  std::vector<std::unique_ptr<MarchedSource>> marched;
 };
 
 /// Describes `type` and the settings of the estimator that it names. `photons_weigh`: do photons weigh 1/density, so
@@ -40,9 +30,7 @@ void describe_density_floor(VolumeSettings& settings, Description& description);
 /// Which flights are kept as beams, and how long they are.
 void describe_flights(VolumeSettings& settings, Description& description);
 
-/// Settings of maps for gathers along rays, for which "corrected" at borders is the same as "ends".
-VolumeMapSettings along_rays(VolumeMapSettings maps);
-/// Settings of the beams of a plan.
-PhotonBeamSettings beams_of(const VolumePlan& plan);
+/// Settings of gathers along rays, for which "corrected" at borders is the same as "ends".
+VolumeSettings along_rays(VolumeSettings settings);
 
 }  // namespace vpm

@@ -1,10 +1,11 @@
-// A segment is cut where the reach of a source begins or ends; each part is marched by the finest step that is asked
-// for.
+// A segment is cut where the reach of photons begins or ends; between, steps are no longer than photons ask for.
 #include "vpm/integrators/photon_map/volume/marched.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <utility>
+
+#include "vpm/photon/stored_power.h"
 
 namespace vpm {
 
@@ -12,70 +13,69 @@ namespace vpm {
 class MarchedLight::March {
  public:
   March(const MarchedLight& light, const EyeSegment& segment, EyeWork& work)
-      : light_(light), segment_(segment), work_(work), throughput_(segment.throughput) {}
+      : light_(light), segment_(segment), work_(work), throughput_(segment.throughput) {
+    if (light.photons_) find_photons(*light.photons_);
+  }
 
   KernelEstimate whole() {
     const auto [t0, t1] = segment_.interval;
-    std::array<float, 2 * kMostSources + 2> cuts{t0, t1};
-    size_t number = 2;
-    for (size_t i = 0; i < light_.sources_.size(); ++i) {
-      found_[i].emplace(Found{light_.sources_[i]->reach(segment_)});
-      const Interval& reach = found_[i]->reach.interval;
-      if (reach.empty()) continue;
-      cuts[number++] = std::clamp(reach.t0, t0, t1);
-      cuts[number++] = std::clamp(reach.t1, t0, t1);
+    float begin = t0, end = t0;
+    if (!among_.empty()) {
+      begin = std::clamp(among_.t0, t0, t1);
+      end = std::clamp(among_.t1, t0, t1);
     }
-    std::sort(cuts.begin(), cuts.begin() + static_cast<std::ptrdiff_t>(number));
-    for (size_t i = 1; i < number; ++i) part({cuts[i - 1], cuts[i]});
+    part({t0, begin});
+    part({begin, end});
+    part({end, t1});
     segment_.set_integral(integral_);
-    KernelEstimate radiance;
-    for (size_t i = 0; i < light_.sources_.size(); ++i) radiance += past_ends_and_shared(i);
-    return radiance;
+    if (points_) finish_photons();
+    return by_photons_ + by_lights_;
   }
 
  private:
-  /// What is found of a source.
-  struct Found {
-    MarchedSource::Reach reach;
-    KernelEstimate radiance{};
-  };
+  void find_photons(const VolumeMaps<PhotonMap>& maps) {
+    const Box& around = maps.around(segment_.number);
+    if (around.empty()) return;
+    const PhotonMap& map = maps[segment_.number];
+    points_.emplace(segment_, map, around, VolumeForm::density_at_query);
+    if (points_->seen_one_by_one()) return;
+    among_ = points_->reach();
+    step_ = step_among(map.settings.radius, among_);
+  }
 
   /// Adds what is scattered along a part of the segment, and attenuates by it.
   void part(const Interval& interval) {
     if (interval.empty() || is_black(throughput_)) return;
-    const Medium& medium = *segment_.medium();
-    StepLimits limits = limits_of(throughput_);
-    std::array<size_t, kMostSources> asked;
-    size_t number = 0;
-    for (size_t i = 0; i < light_.sources_.size(); ++i) {
-      const auto& [reach, step, points] = found_[i]->reach;
-      if (reach.t0 > interval.t0 || reach.t1 < interval.t1) continue;
-      limits.length = std::min(limits.length, step);
-      asked[number++] = i;
-    }
-    if (number == 0) return attenuate(counted_density_integral(medium, segment_.ray, interval, work_.counters.walk));
+    const bool among_photons = among_.t0 <= interval.t0 && among_.t1 >= interval.t1;
+    if (!among_photons && !light_.lights_)
+      return attenuate(counted_density_integral(*segment_.medium(), segment_.ray, interval, work_.counters.walk));
+    const StepLimits limits = limits_of(throughput_, among_photons ? step_ : kInfinity);
     const auto add = [&](const Vec3& point, const Rgb& weight) {
-      for (size_t i = 0; i < number; ++i) add_point(asked[i], point, throughput_ * weight);
+      if (among_photons) add_photons(point, throughput_ * weight);
+      if (light_.lights_) add_lights(*light_.lights_, point, throughput_ * weight);
     };
     attenuate(march(interval, limits, add).integral);
   }
 
-  /// Adds what a source finds past the segment's ends, where the eye sees as far as to the mirrored places, and
-  /// corrects the light of the source.
-  KernelEstimate past_ends_and_shared(size_t i) {
-    Found& found = *found_[i];
-    if (!found.reach.points) return found.radiance;
-    found.radiance += segment_.throughput * light_.sources_[i]->evenly(segment_, found.reach, work_);
-    if (found.reach.interval.empty()) return found.reach.points->over_share(found.radiance, work_);
-    const auto [t0, t1] = segment_.interval;
-    const Mirrored mirror = found.reach.points->mirrored();
-    if (found.reach.interval.t0 < t0) past_end(i, {t0, mirror(found.reach.interval.t0)}, t0, segment_.throughput);
-    if (found.reach.interval.t1 > t1) {
-      const float from = mirror(found.reach.interval.t1);
-      const Rgb seen = seen_at(from);
-      if (!is_black(seen)) past_end(i, {from, t1}, t1, segment_.throughput * seen);
+  /// Adds the photons that have a march of their own, and those past the segment's ends, where the eye sees as far as
+  /// to the mirrored places; and corrects what photons bring.
+  void finish_photons() {
+    if (points_->seen_one_by_one()) {
+      const KernelEstimate light = source_factor(*segment_.medium()) * points_->march_evenly(work_);
+      by_photons_ += segment_.throughput * light;
     }
-    return found.reach.points->over_share(found.radiance, work_);
+    if (!among_.empty()) add_past_ends();
+    by_photons_ = points_->over_share(by_photons_, work_);
+  }
+
+  void add_past_ends() {
+    const auto [t0, t1] = segment_.interval;
+    const Mirrored mirror = points_->mirrored();
+    if (among_.t0 < t0) past_end({t0, mirror(among_.t0)}, t0, segment_.throughput);
+    if (among_.t1 <= t1) return;
+    const float from = mirror(among_.t1);
+    const Rgb seen = seen_at(from);
+    if (!is_black(seen)) past_end({from, t1}, t1, segment_.throughput * seen);
   }
 
   /// The transmittance to a place of the segment, which has been marched. Below 1 % by Russian roulette, as past dense
@@ -91,23 +91,29 @@ class MarchedLight::March {
     return work_.rng.uniform() < survival ? seen / survival : Rgb(0.0f);
   }
 
-  /// Adds what a source finds at the places that mirror an interval of the segment at its end.
-  void past_end(size_t i, const Interval& mirrored, float end, const Rgb& throughput) {
-    StepLimits limits = limits_of(throughput);
-    limits.length = found_[i]->reach.step;
+  /// Adds the photons at the places that mirror an interval of the segment at its end.
+  void past_end(const Interval& mirrored, float end, const Rgb& throughput) {
     const Vec3 twice_end = 2.0f * segment_.ray.at(end);
-    march(mirrored, limits,
-          [&](const Vec3& point, const Rgb& weight) { add_point(i, twice_end - point, throughput * weight); });
+    march(mirrored, limits_of(throughput, step_),
+          [&](const Vec3& point, const Rgb& weight) { add_photons(twice_end - point, throughput * weight); });
   }
 
-  StepLimits limits_of(const Rgb& throughput) const {
-    return {kInfinity, light_.max_optical_step_, glm::greaterThan(throughput * segment_.medium()->sigma_s, Rgb(0.0f))};
+  StepLimits limits_of(const Rgb& throughput, float length) const {
+    return {length, light_.max_optical_step_, glm::greaterThan(throughput * segment_.medium()->sigma_s, Rgb(0.0f))};
   }
 
-  /// `seen` is the weight of the point times the throughput at the start of the march.
-  void add_point(size_t i, const Vec3& point, const Rgb& seen) {
-    const float densest = segment_.medium()->max_density();  // weights are those of relative densities
-    found_[i]->radiance += seen / densest * light_.sources_[i]->at(segment_, found_[i]->reach, point, work_);
+  /// `seen` is the weight of the point times the throughput at the start of the march. Weights are those of densities
+  /// over the largest, times that.
+  void add_photons(const Vec3& point, const Rgb& seen) {
+    const Medium& medium = *segment_.medium();
+    const KernelEstimate light = source_factor(medium) * points_->sum(point, work_);
+    by_photons_ += seen / medium.max_density() * light;
+  }
+  void add_lights(const ScatteredOnce& lights, const Vec3& point, const Rgb& seen) {
+    const Medium& medium = *segment_.medium();
+    const Rgb light =
+        medium.sigma_s * medium.max_density() * lights.towards_eye(lights.pick(work_.rng), segment_, point, work_);
+    by_lights_ += seen / medium.max_density() * light;
   }
 
   template <class Add>
@@ -127,41 +133,32 @@ class MarchedLight::March {
   const MarchedLight& light_;
   const EyeSegment& segment_;
   EyeWork& work_;
-  std::array<std::optional<Found>, kMostSources> found_;  // of the sources that there are
+  std::optional<PointsOfSegment> points_;  // where there are photons in the medium
+  Interval among_{0.0f, 0.0f};             // where points are asked for them; may reach past the segment's ends
+  float step_ = kInfinity;                 // the longest step there, m
+  KernelEstimate by_photons_{};
+  Rgb by_lights_{0.0f};
   Rgb throughput_;
   double integral_ = 0.0;  // m, so far
 };
 
-MarchedLight::MarchedLight(std::vector<std::unique_ptr<MarchedSource>> sources, float max_optical_step)
-    : sources_(std::move(sources)), max_optical_step_(max_optical_step) {
-  assert(!sources_.empty() && sources_.size() <= kMostSources);
+MarchedLight::MarchedLight(std::optional<VolumeMaps<PhotonMap>> photons, std::optional<ScatteredOnce> lights,
+                           float max_optical_step)
+    : photons_(std::move(photons)), lights_(std::move(lights)), max_optical_step_(max_optical_step) {
+  assert(photons_ || lights_);
 }
 
 ScatteredLight MarchedLight::finds() const {
-  ScatteredLight all;
-  for (const auto& source : sources_) {
-    const ScatteredLight found = source->finds();
-    all = {all.once || found.once, all.more || found.more};
-  }
-  return all;
+  const ScatteredLight found = photons_ ? photons_->finds() : ScatteredLight{};
+  return {found.once || lights_, found.more};
 }
 
-std::vector<MapInfo> MarchedLight::maps() const {
-  std::vector<MapInfo> all;
-  for (const auto& source : sources_)
-    for (const MapInfo& map : source->maps()) all.push_back(map);
-  return all;
-}
+std::vector<MapInfo> MarchedLight::maps() const { return photons_ ? photons_->maps() : std::vector<MapInfo>(); }
 
-Recorders MarchedLight::recorders() {
-  Recorders all;
-  for (const auto& source : sources_)
-    for (PhotonRecorder* recorder : source->recorders()) all.push_back(recorder);
-  return all;
-}
+Recorders MarchedLight::recorders() { return photons_ ? photons_->recorders() : Recorders(); }
 
 void MarchedLight::build(uint64_t emitted, RenderStatistics& statistics) {
-  for (const auto& source : sources_) source->build(emitted, statistics);
+  if (photons_) build_around_points(*photons_, emitted, statistics);
 }
 
 KernelEstimate MarchedLight::along(const EyeSegment& segment, EyeWork& work) const {

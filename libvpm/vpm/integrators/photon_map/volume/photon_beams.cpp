@@ -9,19 +9,10 @@
 #include "vpm/integrators/photon_map/volume/bundle_lanes.h"
 
 namespace vpm {
-namespace {
 
-/// The settings of the collisions that are gathered with the beams.
-VolumeMapSettings with_beams(const PhotonBeamSettings& settings) {
-  VolumeMapSettings maps = settings.maps;
-  maps.turned &= !settings.planes;
-  return maps;
-}
-
-}  // namespace
-
-PhotonBeams::PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings)
-    : beams_(scene, settings, 1), collisions_(scene, with_beams(settings), 2) {}
+PhotonBeams::PhotonBeams(const Scene& scene, const VolumeSettings& settings, const MediaPass& pass,
+                         std::optional<PlaneUse> planes)
+    : planes_(planes), beams_(scene, settings, pass, 1, planes), collisions_(scene, settings, pass, 2, !planes) {}
 
 std::vector<MapInfo> PhotonBeams::maps() const {
   MapInfo map = beams_.maps().front();
@@ -39,7 +30,7 @@ void PhotonBeams::build_beside(float kept_planes, uint64_t emitted, RenderStatis
   collisions_.build(
       emitted, statistics,
       [&](std::vector<Photon>& photons, const GatherSettings& of_pass, float shrunk, uint64_t of, RenderStatistics& s) {
-        return make_beam_map(photons, of_pass, shrunk, of, collisions_.settings().pass, s);
+        return make_beam_map(photons, of_pass, shrunk, of, collisions_.pass(), s);
       });
   beams_.build(emitted, statistics,
                [&](MediumId number, const std::vector<PhotonBeam>& beams, const GatherSettings& of_pass, float kept,
@@ -48,7 +39,7 @@ void PhotonBeams::build_beside(float kept_planes, uint64_t emitted, RenderStatis
                                            kernel_size_2d(of_pass.kernel, collisions_[number].settings.radius),
                                            kept_planes};
                  Map map{of_pass, balance, PhotonBeamMap(beams, of_pass.radius, scale), {}};
-                 if (beams_.settings().planes)
+                 if (planes_ == PlaneUse::combined)
                    for (const PhotonBeam& beam : beams)
                      map.begins.push_back({beam.turned_from.unpack(), beam.scattering_rate});
                  return map;
@@ -96,20 +87,20 @@ void PhotonBeams::beams_along_bundle(const Vec3& apex, SegmentBundle bundle, con
     count(work.counters.volume_queries, lanes.searching());
     count(counters.searches, lanes.searching());
     lanes.add(sum_in_lanes(medium, map, work.scratch.beams, lanes, counters),
-              scattering_of_beams(medium, beams_.settings().maps.form));
+              scattering_of_beams(medium, beams_.settings().form));
   });
 }
 
 LaneTotals PhotonBeams::sum_in_lanes(const Medium& medium, const Map& map, const PhotonBeamMap::Selection& near,
                                      const GatherLanes& lanes, GatherCounters& counters) const {
   const float radius = map.settings.radius, norm = kernel_norm_1d(map.settings.kernel, radius);
+  const bool long_beams = beams_.settings().length == BeamLength::long_beams;
   LaneTotals totals;
   const Extinction extinction(medium.sigma_t);
   const auto visit = [&](const BundledBeams& beams) {
     LaneEstimates sums;
     with_phase_and_kernel<1>(medium.phase, map.settings.kernel, [&](const auto& phase, auto profile) {
-      const BeamAcross across{
-          lanes.segments(), phase, profile, extinction, radius, map.balance, beams_.settings().long_beams};
+      const BeamAcross across{lanes.segments(), phase, profile, extinction, radius, map.balance, long_beams};
       for (size_t p = 0; p < beams.size; ++p) {
         const Begin begin = map.begins.empty() ? Begin{Vec3(0.0f), 0.0f} : map.begins[beams.beam[p]];
         across.add(beams, p, begin.from, begin.sigma_s, sums);
@@ -159,7 +150,7 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
                                    const Map& map, EyeWork& work) const {
   const Medium& medium = *segment.medium();
   const float radius = map.settings.radius, inverse = 1.0f / (radius * radius);
-  const VolumeForm form = beams_.settings().maps.form;
+  const VolumeForm form = beams_.settings().form;
   const PassToEye pass(medium, medium.homogeneous() ? nullptr : &segment.integrals(work), form, region.mirrored());
   GatherCounters& counters = work.counters.gather;
   count(work.counters.volume_queries);
@@ -189,8 +180,8 @@ extern const VolumeEstimatorInfo kPhotonBeams{
     .along_rays = true,
     .flights = true,
     .describe = describe_flights,
-    .make = [](const VolumePlan& plan, VolumeEstimators& made) {
-      made.whole.push_back(std::make_unique<PhotonBeams>(plan.scene, beams_of(plan)));
+    .make = [](const VolumePlan& plan) -> std::unique_ptr<VolumeEstimator> {
+      return std::make_unique<PhotonBeams>(plan.scene, along_rays(plan.settings), plan.pass);
     }};
 
 }  // namespace vpm

@@ -15,7 +15,8 @@ namespace vpm {
 /// collision from beams alone.
 class PhotonBeams final : public VolumeEstimator {
  public:
-  PhotonBeams(const Scene& scene, const PhotonBeamSettings& settings);
+  PhotonBeams(const Scene& scene, const VolumeSettings& settings, const MediaPass& pass,
+              std::optional<PlaneUse> planes = {});
 
   ScatteredLight finds() const override { return collisions_.finds(); }
   std::vector<MapInfo> maps() const override;
@@ -53,6 +54,7 @@ class PhotonBeams final : public VolumeEstimator {
                           const GatherLanes& lanes, GatherCounters& counters) const;
   void share_with_planes(const Vec3& ray, const Map& map, const BeamCrossings& found, float* share) const;
 
+  std::optional<PlaneUse> planes_;  // beside these
   BeamMaps<Map> beams_;
   VolumeMaps<BeamMap> collisions_;
 };

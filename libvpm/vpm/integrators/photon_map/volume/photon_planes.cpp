@@ -11,23 +11,14 @@
 #include "vpm/photon/photon_beam.h"
 
 namespace vpm {
-namespace {
-
-PhotonBeamSettings beside_planes(const PhotonPlaneSettings& settings) {
-  PhotonBeamSettings beams = settings.beams;
-  beams.planes = !settings.alone;
-  beams.maps.turned = !settings.alone;
-  return beams;
-}
-
-}  // namespace
 
 PhotonPlanes::PhotonPlanes(const Scene& scene, std::shared_ptr<const TransmittanceEstimator> transmittance,
-                           const PhotonPlaneSettings& settings)
+                           const VolumeSettings& settings, const MediaPass& pass)
     : scene_(scene),
       transmittance_(std::move(transmittance)),
       settings_(settings),
-      beams_(scene, beside_planes(settings)),
+      pass_(pass),
+      beams_(scene, settings, pass, settings.share),
       flights_(scene, any_photon, {}) {}
 
 Recorders PhotonPlanes::recorders() {
@@ -37,8 +28,7 @@ Recorders PhotonPlanes::recorders() {
 }
 
 void PhotonPlanes::build(uint64_t emitted, RenderStatistics& statistics) {
-  const auto number = static_cast<uint64_t>(settings_.beams.maps.pass.number);
-  Rng rng(settings_.beams.seed, rng_stream(RngUse::plane, number), 0);
+  Rng rng(pass_.seed, rng_stream(RngUse::plane, static_cast<uint64_t>(pass_.maps.number)), 0);
   const float kept = thin(flights_.beams, settings_.planes, rng);
   const auto scale = static_cast<float>(1.0 / static_cast<double>(emitted));
   planes_ = PhotonPlaneList(planes_of(std::exchange(flights_.beams, {}), scene_, scale, rng));
@@ -95,7 +85,7 @@ Rgb PhotonPlanes::arriving(const PlaneCrossing& crossing, const EyeSegment& segm
   const Rgb passed = visibility_of_place(rays, {collision, plane.scattered}, crossing.beyond, plane.medium);
   if (is_black(passed)) return Rgb(0.0f);
   float share = 1.0f / crossing.determinant;
-  if (!settings_.alone) {
+  if (settings_.share == PlaneUse::combined) {
     const float sine = glm::length(glm::cross(plane.scattered, segment.ray.direction));
     const float sigma_s = mean_channel(around.sigma_s) * density;
     share = beams_.balance(segment.number).of_planes_over_determinant(sine, sigma_s, crossing.determinant);
@@ -128,10 +118,8 @@ extern const VolumeEstimatorInfo kPhotonPlanes{
     .flights = true,
     .planes = true,
     .describe = describe_planes,
-    .make = [](const VolumePlan& plan, VolumeEstimators& made) {
-      made.whole.push_back(std::make_unique<PhotonPlanes>(
-          plan.scene, plan.transmittance,
-          PhotonPlaneSettings{beams_of(plan), plan.settings.planes, plan.settings.share == PlaneUse::alone}));
+    .make = [](const VolumePlan& plan) -> std::unique_ptr<VolumeEstimator> {
+      return std::make_unique<PhotonPlanes>(plan.scene, plan.transmittance, along_rays(plan.settings), plan.pass);
     }};
 
 }  // namespace vpm

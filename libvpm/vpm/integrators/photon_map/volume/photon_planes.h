@@ -14,16 +14,11 @@
 
 namespace vpm {
 
-struct PhotonPlaneSettings {
-  PhotonBeamSettings beams;
-  uint64_t planes = 0;  // > 0: the most planes, of all media together
-  bool alone = false;   // planes find all light that they can find, for study: their variance is then infinite
-};
-
+/// That planes find all light that they can find (PlaneUse::alone) is for study: their variance is then infinite.
 class PhotonPlanes final : public VolumeEstimator {
  public:
   PhotonPlanes(const Scene& scene, std::shared_ptr<const TransmittanceEstimator> transmittance,
-               const PhotonPlaneSettings& settings);
+               const VolumeSettings& settings, const MediaPass& pass);
 
   ScatteredLight finds() const override { return beams_.finds(); }
   std::vector<MapInfo> maps() const override { return beams_.maps(); }
@@ -40,7 +35,8 @@ class PhotonPlanes final : public VolumeEstimator {
 
   const Scene& scene_;
   std::shared_ptr<const TransmittanceEstimator> transmittance_;
-  PhotonPlaneSettings settings_;
+  VolumeSettings settings_;
+  MediaPass pass_;
   PhotonBeams beams_;
   BeamRecorder flights_;
   PhotonPlaneList planes_;

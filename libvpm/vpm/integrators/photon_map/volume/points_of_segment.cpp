@@ -32,6 +32,13 @@ Spread spread_of(const EyeSegment& segment, const GatherSettings& gather) {
 
 }  // namespace
 
+void build_around_points(VolumeMaps<PhotonMap>& maps, uint64_t emitted, RenderStatistics& statistics) {
+  maps.build(emitted, statistics,
+             [&](std::vector<Photon>& photons, const GatherSettings& gather, float, uint64_t of, RenderStatistics& s) {
+               return make_map(photons, gather, of, maps.pass(), s);
+             });
+}
+
 PointsOfSegment::PointsOfSegment(const EyeSegment& segment, const PhotonMap& map, const Box& around, VolumeForm form)
     : segment_(segment),
       map_(map),

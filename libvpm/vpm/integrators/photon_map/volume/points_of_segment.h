@@ -8,6 +8,9 @@
 
 namespace vpm {
 
+/// Builds maps of photons that are gathered around points.
+void build_around_points(VolumeMaps<PhotonMap>& maps, uint64_t emitted, RenderStatistics& statistics);
+
 /// Of the photons of the segment's medium.
 class PointsOfSegment {
  public:

@@ -7,7 +7,6 @@
 
 #include "vpm/estimate/eye_segment.h"
 #include "vpm/integrators/photon_map/estimator.h"
-#include "vpm/integrators/photon_map/volume/marched.h"
 #include "vpm/light/light.h"
 #include "vpm/medium/grid/density_integrals_along.h"
 #include "vpm/path/direct_light.h"
@@ -105,24 +104,6 @@ class SingleEquiangular final : public VolumeEstimator {
  private:
   ScatteredOnce light_;
   int pairs_;
-};
-
-/// Single scattering at points of a march: one light each, by a shadow ray.
-class SingleMarched final : public MarchedSource {
- public:
-  SingleMarched(const Scene& scene, std::shared_ptr<const TransmittanceEstimator> transmittance)
-      : light_(scene, std::move(transmittance)) {}
-
-  ScatteredLight finds() const override { return {.once = true}; }
-  /// Everywhere, in steps of optical thickness alone.
-  Reach reach(const EyeSegment& segment) const override { return {segment.interval, kInfinity, std::nullopt}; }
-  KernelEstimate at(const EyeSegment& segment, const Reach&, const Vec3& point, EyeWork& work) const override {
-    const Medium& medium = *segment.medium();
-    return medium.sigma_s * medium.max_density() * light_.towards_eye(light_.pick(work.rng), segment, point, work);
-  }
-
- private:
-  ScatteredOnce light_;
 };
 
 }  // namespace vpm

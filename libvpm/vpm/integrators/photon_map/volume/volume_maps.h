@@ -3,20 +3,19 @@
 
 #include "vpm/estimate/photon_map.h"
 #include "vpm/integrators/photon_map/estimator.h"
+#include "vpm/integrators/photon_map/volume/volume_settings.h"
 #include "vpm/photon/records.h"
 
 namespace vpm {
 
-/// The settings of an estimator that gathers photons of media.
-struct VolumeMapSettings {
-  AskedGather gather;
-  VolumeForm form = VolumeForm::density_at_query;
-  float density_floor = 0.0f;  // in [0, 1], see stored_power()
-  bool once = true;            // also gather photons that come straight from lights
-  PassOfMaps pass;
-  bool turned = true;  // also gather photons whose flights began at collisions (Turn)
+/// A pass of estimators that gather photons of media.
+struct MediaPass {
+  PassOfMaps maps;
+  bool once = true;   // are photons that come straight from lights gathered, too?
+  uint64_t seed = 1;  // of which flights become beams and planes
 
-  PhotonFilter filter() const {
+  /// The photons that are gathered; `turned`: also those whose flights began at collisions (Turn).
+  PhotonFilter filter(bool turned) const {
     const PhotonFilter of_light = once ? any_photon : indirect_photon;
     return turned ? of_light : of_light.straight();
   }
@@ -27,24 +26,27 @@ struct VolumeMapSettings {
 template <class Map>
 class VolumeMaps {
  public:
-  /// `dimension` of the kernel.
-  VolumeMaps(const Scene& scene, const VolumeMapSettings& settings, int dimension)
+  /// `dimension` of the kernel; `turned`: see MediaPass::filter().
+  VolumeMaps(const Scene& scene, const VolumeSettings& settings, const MediaPass& pass, int dimension,
+             bool turned = true)
       : scene_(scene),
         settings_(settings),
+        pass_(pass),
         dimension_(dimension),
         // The region of a ball that is corrected has no places without density.
-        collisions_(scene, settings.form, {settings.density_floor, !settings.gather.corrects_each_ball()},
-                    settings.filter()) {}
+        collisions_(scene, settings.form, {settings.density_floor, !settings.corrects_each_ball()},
+                    pass.filter(turned)) {}
 
-  ScatteredLight finds() const { return {settings_.once, true}; }
+  ScatteredLight finds() const { return {pass_.once, true}; }
   std::vector<MapInfo> maps() const { return {{"volume", dimension_, true, &collisions_.photons}}; }
   Recorders recorders() { return {&collisions_}; }
-  const VolumeMapSettings& settings() const { return settings_; }
+  const VolumeSettings& settings() const { return settings_; }
+  const PassOfMaps& pass() const { return pass_.maps; }
   const Map& operator[](size_t medium) const { return by_medium_[medium]; }
   size_t size() const { return by_medium_.size(); }
   /// The box around the photons of the pass in a medium, of which its map may hold a block.
   const Box& around(size_t medium) const {
-    return settings_.pass.around ? (*settings_.pass.around)[medium] : by_medium_[medium].bounds();
+    return pass_.maps.around ? (*pass_.maps.around)[medium] : by_medium_[medium].bounds();
   }
 
   template <class Make>
@@ -52,8 +54,8 @@ class VolumeMaps {
     count(statistics.ledger.floored, collisions_.floored);
     for (size_t m = 0; m < scene_.media.size(); ++m) {
       std::vector<Photon>& photons = collisions_.photons[m];
-      const float first = first_radius(settings_.gather, scene_, scene_.media[m]);
-      const GatherSettings gather = gather_in_pass(settings_.gather, first, dimension_, settings_.pass);
+      const float first = first_radius(settings_, scene_, scene_.media[m]);
+      const GatherSettings gather = gather_in_pass(settings_, first, dimension_, pass_.maps);
       statistics.volume_photons += photons.size();
       statistics.last_volume_radius = std::max(statistics.last_volume_radius, gather.radius);
       by_medium_.push_back(make(photons, gather, gather.radius / first, emitted, statistics));
@@ -62,7 +64,8 @@ class VolumeMaps {
 
  private:
   const Scene& scene_;
-  VolumeMapSettings settings_;
+  VolumeSettings settings_;
+  MediaPass pass_;
   int dimension_;
   CollisionRecorder collisions_;
   std::vector<Map> by_medium_;
