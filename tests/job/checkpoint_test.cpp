@@ -138,7 +138,7 @@ TEST_F(Checkpoint, TellsWhereItsRenderIsReadFrom) {
   for (const char* damaged : {"origin 1\nscene=a\\b\n", "origin 1\nseed=-1\n", "origin 1\nauto=1\n", "origin 1\nseed\n",
                               "origin\n", "origins 0\n"}) {
     put("vpm checkpoint of a render\nformat 9\nidentity 0\n" + std::string(damaged));
-    refuses({}, "it does not tell w");
+    refuses({}, "it does not say w");
   }
 }
 

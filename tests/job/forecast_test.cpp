@@ -205,8 +205,8 @@ TEST(Forecast, SaysWhatItsLooksHadNoTimeFor) {
   job.settings = within(2.0, 1'000'000);
   foresee(job, HastyClock());
   ASSERT_EQ(job.notes.size(), 2u);
-  EXPECT_EQ(job.notes[0], "a look of 0.2 s does not tell how many photons a ray gathers");
-  EXPECT_EQ(job.notes[1], "a look of 0.4 s does not tell how long a pass takes");
+  EXPECT_EQ(job.notes[0], "a look of 0.2 s is too short to count the photons that a ray gathers");
+  EXPECT_EQ(job.notes[1], "a look of 0.4 s is too short to time a pass");
   EXPECT_EQ(job.foreseen_pass, 0.0);
 }
 

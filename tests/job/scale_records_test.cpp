@@ -48,7 +48,8 @@ TEST(ScaleRecords, WidensWhereNoiseIsAllAndNotBeyondATwentiethOfTheScene) {
   const std::vector<Choice> choices = scaled(scene, settings);
   EXPECT_FLOAT_EQ(settings.volume.radius.metres(), rounded_radius(2.0 * narrow));
   EXPECT_EQ(choices[1].value, fmt::format("{}", settings.volume.radius.metres()));
-  EXPECT_EQ(choices[1].reason, fmt::format("{}: by photons; then times 2, which is told to leave less error", narrow));
+  EXPECT_EQ(choices[1].reason,
+            fmt::format("{}: by photons; then times 2, which is expected to leave less error", narrow));
   EXPECT_EQ(choices[0].value, "5000");  // as passes are counted
   EXPECT_EQ(choices[2].value, "7");
   RenderSettings wide = settings_with(static_cast<float>(0.9 * largest));
@@ -116,9 +117,9 @@ TEST(ScaleRecords, PhotonsAreFewWhereTheyMakeNoNoiseAndManyWhereTheyMakeAll) {
   few.until.error = many.until.error = 1e-9;
   few.photons.emitted = 3'000'000;
   many.photons.emitted = 200;
-  EXPECT_EQ(scaled(scene, few)[0].reason, "3000000: by cost; then times 0.5, which is told to leave less error");
+  EXPECT_EQ(scaled(scene, few)[0].reason, "3000000: by cost; then times 0.5, which is expected to leave less error");
   EXPECT_EQ(few.photons.emitted, 1'500'000u);
-  EXPECT_EQ(scaled(scene, many)[0].reason, "200: by cost; then times 2, which is told to leave less error");
+  EXPECT_EQ(scaled(scene, many)[0].reason, "200: by cost; then times 2, which is expected to leave less error");
   EXPECT_EQ(many.photons.emitted, 400u);
 }
 

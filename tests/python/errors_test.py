@@ -18,7 +18,7 @@ def test_errors_have_the_text_of_the_command_line(ball_file):
     assert told == f"vpm: {error.value}\n"
 
 
-def told_of(scene):
+def refusal_of(scene):
     with pytest.raises(vpm.InputError) as error:
         vpm.Scene(scene)
     return str(error.value)
@@ -28,11 +28,11 @@ def test_errors_of_a_dict_show_the_line_of_the_file_that_it_is():
     scene = changed()
     scene["media"]["fog"]["sigma_a"] = -1
     line = vpm.Scene.text_of(scene).splitlines().index("sigma_a = -1") + 1
-    assert told_of(scene).startswith(f"<dict>:{line}:11: 'sigma_a' of [media.fog]")
-    assert f"{line} | sigma_a = -1" in told_of(scene)
-    assert "did you mean 'camera'" in told_of({**BALL, "camra": {}})
-    assert told_of(changed(film={"width": None})).startswith("film.width is None, of type NoneType")
-    assert told_of({**BALL, 3: {}}) == "the scene has the key 3, which is no text"
+    assert refusal_of(scene).startswith(f"<dict>:{line}:11: 'sigma_a' of [media.fog]")
+    assert f"{line} | sigma_a = -1" in refusal_of(scene)
+    assert "did you mean 'camera'" in refusal_of({**BALL, "camra": {}})
+    assert refusal_of(changed(film={"width": None})).startswith("film.width is None, of type NoneType")
+    assert refusal_of({**BALL, 3: {}}) == "the scene has the key 3, which is no text"
 
 
 @pytest.mark.parametrize("grid, text", [
@@ -45,7 +45,7 @@ def test_errors_of_a_dict_show_the_line_of_the_file_that_it_is():
     (vpm.Grid(np.ones((2, 2, 2)), np.diag([1, 0, 1, 1])), "the array has a transform that flattens space"),
 ])
 def test_arrays_that_are_no_density_are_refused(grid, text):
-    told = told_of(smoke(grid=grid))
+    told = refusal_of(smoke(grid=grid))
     assert text in told
     assert told.startswith("media.smoke.grid: ") or "grid = \"array of " in told  # the line that it is about
 
@@ -60,10 +60,10 @@ def test_negative_densities_are_read_as_0_on_request(tmp_path):
 
 
 def test_keys_of_files_do_not_go_with_arrays():
-    assert "unknown key 'path'" in told_of(smoke(grid=cloud(), path="cloud.vdb"))
-    assert "from_level_set" in told_of(smoke(grid=cloud(), from_level_set=True))
-    assert "path" in told_of(meshed(mesh=vpm.Mesh(*PYRAMID), path="a.ply"))
-    assert "lacks the key 'path'" in told_of(smoke())
+    assert "unknown key 'path'" in refusal_of(smoke(grid=cloud(), path="cloud.vdb"))
+    assert "from_level_set" in refusal_of(smoke(grid=cloud(), from_level_set=True))
+    assert "path" in refusal_of(meshed(mesh=vpm.Mesh(*PYRAMID), path="a.ply"))
+    assert "lacks the key 'path'" in refusal_of(smoke())
 
 
 @pytest.mark.parametrize("vertices, faces, text", [
@@ -79,7 +79,7 @@ def test_arrays_that_are_no_mesh_are_refused(vertices, faces, text):
 
 
 def test_meshes_without_area_are_refused():
-    told = told_of(meshed(mesh=vpm.Mesh(np.zeros((3, 3)), [[0, 1, 2]])))
+    told = refusal_of(meshed(mesh=vpm.Mesh(np.zeros((3, 3)), [[0, 1, 2]])))
     assert "no face of the mesh has an area" in told and 'mesh = "mesh of 3 vertices and 1 faces"' in told
 
 

@@ -20,10 +20,10 @@ RenderJob job_of_seed(uint64_t seed) {
 TEST(SameRender, IsToldByRank0AndCheckedByTheOthers) {
   Post post(3);
   RankInMemory leader(post, 0), other(post, 1), third(post, 2);
-  tell_render(leader, identity_of(job_of_seed(7)));
+  send_render(leader, identity_of(job_of_seed(7)));
   RenderJob same = job_of_seed(7), differs = job_of_seed(8);
-  EXPECT_NO_THROW(render_as_told(same, told_render(other)));
-  const std::string words = message_of([&] { render_as_told(differs, told_render(third)); });
+  EXPECT_NO_THROW(adopt_render(same, receive_render(other)));
+  const std::string words = message_of([&] { adopt_render(differs, receive_render(third)); });
   EXPECT_NE(words.find("render.seed: 7 of rank 0, 8 here"), std::string::npos) << words;
 }
 
@@ -35,8 +35,8 @@ TEST(SameRender, WhatRank0ChoseIsTaken) {
   for (RenderJob* each : {&led, &job}) each->automatic.left_out = {"integrator.volume.radius"};
   led.choices = {{"integrator.volume.radius", "0.25", ""}};
   led.settings.volume.radius = 0.25f;
-  tell_render(leader, identity_of(led));
-  render_as_told(job, told_render(other));
+  send_render(leader, identity_of(led));
+  adopt_render(job, receive_render(other));
   EXPECT_EQ(job.settings.volume.radius, led.settings.volume.radius);
   ASSERT_EQ(job.choices.size(), 1u);
   EXPECT_EQ(job.choices[0].value, "0.25");
@@ -46,9 +46,9 @@ TEST(SameRender, AnotherMessageIsAnotherProgram) {
   Post post(2);
   RankInMemory leader(post, 0), other(post, 1);
   leader.send(1, "good morning");
-  EXPECT_THROW(told_render(other), std::runtime_error);
+  EXPECT_THROW(receive_render(other), std::runtime_error);
   leader.send(1, "good night");
-  EXPECT_THROW(told_result(other), FieldError);
+  EXPECT_THROW(receive_result(other), FieldError);
 }
 
 TEST(SameRender, TheResultIsToldToTheLastBitWithItsErrors) {
@@ -66,8 +66,8 @@ TEST(SameRender, TheResultIsToldToTheLastBitWithItsErrors) {
   result.errors = result.film.errors();
   Post post(2);
   RankInMemory leader(post, 0), other(post, 1);
-  tell_result(leader, result);
-  const RenderResult told = told_result(other);
+  send_result(leader, result);
+  const RenderResult told = receive_result(other);
   EXPECT_TRUE(told.film.sums() == result.film.sums());
   ASSERT_EQ(told.layers.size(), 1u);
   EXPECT_TRUE(told.layers[0].sums() == result.layers[0].sums());

@@ -268,7 +268,7 @@ TEST(Assemble, RefusesTexturesThatNothingTells) {
     p.materials[0].texture = picture;
     p.shapes[0].surface = DiscShape{};
   });
-  expect_refusal("materials[1].texture", "a texture tells a reflectance",
+  expect_refusal("materials[1].texture", "a texture is a reflectance",
                  [&](SceneParts& p) { p.materials[1].texture = picture; });
 }
 

@@ -27,15 +27,16 @@ class VpmAutomatic : public VpmRender {
 };
 
 TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
-  const std::string told_errors = vpm_succeeds({"render", "open.toml", "--auto", "--set", "integrator.volume.type=auto",
-                                                "--set", "integrator.type=photon-map", "-o", "auto.exr"})
-                                      .err;
+  const std::string chosen_notes =
+      vpm_succeeds({"render", "open.toml", "--auto", "--set", "integrator.volume.type=auto", "--set",
+                    "integrator.type=photon-map", "-o", "auto.exr"})
+          .err;
   for (const char* key : {"integrator.distance.type", "integrator.volume.type", "integrator.photons.emitted",
                           "integrator.volume.radius", "integrator.surface.radius"})
-    EXPECT_NE(told_errors.find(std::string("note: chosen ") + key), std::string::npos) << told_errors;
+    EXPECT_NE(chosen_notes.find(std::string("note: chosen ") + key), std::string::npos) << chosen_notes;
   std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
-  for (const std::string& word : told(told_errors)) again.push_back(word);
-  ASSERT_EQ(again.size(), 4u + 10u) << told_errors;
+  for (const std::string& word : told(chosen_notes)) again.push_back(word);
+  ASSERT_EQ(again.size(), 4u + 10u) << chosen_notes;
   vpm_succeeds(again);
   EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
   EXPECT_EQ(report("auto.json")["settings"], report("again.json")["settings"]);

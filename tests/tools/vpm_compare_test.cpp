@@ -236,7 +236,7 @@ TEST_F(VpmCompare, BiasesBesideReferencesInDoubtAreNotJudged) {
   EXPECT_EQ(why("baseline = \"0.4\"\n" + photon_maps + scene), "");
   EXPECT_EQ(why(scene + "reference = \"paths.exr\"\n"), "");
   EXPECT_EQ(why(scene + "reference = \"photons.exr\"\n"), of_photons);
-  EXPECT_EQ(why(scene + "reference = \"one.exr\"\n"), "the reference does not tell its own noise");
+  EXPECT_EQ(why(scene + "reference = \"one.exr\"\n"), "the reference has no variance");
 }
 
 TEST_F(VpmCompare, RefusesBeforeItRenders) {

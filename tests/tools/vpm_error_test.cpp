@@ -252,8 +252,8 @@ TEST_F(VpmError, SaysWhyASeriesHasNoSlope) {
     arguments.emplace_back("reference.exr");
     return vpm_succeeds(arguments).out;
   };
-  EXPECT_NE(said({"a.exr", "image.exr"}).find("image.exr does not tell its passes"), std::string::npos);
-  EXPECT_NE(said({"a.exr", "c.exr"}).find("c.exr does not tell its passes"), std::string::npos);
+  EXPECT_NE(said({"a.exr", "image.exr"}).find("image.exr does not state its passes"), std::string::npos);
+  EXPECT_NE(said({"a.exr", "c.exr"}).find("c.exr does not state its passes"), std::string::npos);
   EXPECT_NE(said({"a.exr", "b.exr"}).find("the same number of passes"), std::string::npos);
   EXPECT_NE(said({"a.exr"}).find("the same number of passes"), std::string::npos);
   write_exr(path("other.exr"), image_, {}, {{"vpm.passes", "8"}, {"vpm.sceneHash", "1234"}});

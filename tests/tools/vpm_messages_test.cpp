@@ -32,7 +32,7 @@ TEST_F(VpmRender, InfoTellsWhatFilesHold) {
       {"renders 2 passes, in each 10000 photons\n", "radii of the first pass: 0.1 m in smoke, 0.1 m on surfaces",
        "40 x 24 pixels", "medium smoke: grid", "sigma_t 30 1/m", "mean free path", "around everything: vacuum",
        "light 0, lamp: spot, power 10 W", "runs volume photon map", "runs surface photon map",
-       "other stages: --all tells which and why", "coefficients differ between channels"});
+       "other stages: --all lists which and why", "coefficients differ between channels"});
   EXPECT_EQ(vpm_succeeds({"info", "scene.toml"}).out.find("skips shadow rays"), std::string::npos);
   expect_words(vpm_succeeds({"info", "scene.toml", "--all"}).out,
                {"runs volume photon map", "skips shadow rays in media"});
@@ -173,15 +173,15 @@ TEST_F(VpmWarnings, EmptyMapsAreToldOfWhereThePictureIsMadeOfThem) {
   expect_words(with({"integrator.direct.type=photons"}),
                {"the volume photon map is empty", "the surface photon map is empty"});
   expect_words(with({"integrator.volume.type=beams-points"}), {"there are no photon beams"});
-  const auto tells_of_black_alone = [&](const std::vector<std::string>& more) {
+  const auto warns_of_black_alone = [&](const std::vector<std::string>& more) {
     const std::string told = with(more);
     expect_words(told, {"the picture is black: no light was found"});
     EXPECT_EQ(told.find("map is empty"), std::string::npos) << told;
   };
-  tells_of_black_alone({"integrator.single_scattering.type=shadow-rays"});
-  tells_of_black_alone({"integrator.single_scattering.type=equiangular"});
+  warns_of_black_alone({"integrator.single_scattering.type=shadow-rays"});
+  warns_of_black_alone({"integrator.single_scattering.type=equiangular"});
   // The camera sees no surface.
-  tells_of_black_alone(
+  warns_of_black_alone(
       {"integrator.single_scattering.type=equiangular", "integrator.direct.type=photons", "camera.target=[0, 9, 2.4]"});
 }
 

@@ -31,7 +31,7 @@ vpm::SceneParts fog_in_a_box() {
 int main(int count, char** arguments) try {
   if (count != 2) throw vpm::InputError("usage: fog_box FILE.exr");
   vpm::RenderSettings settings;
-  settings.until.passes = 16;                               // of 200,000 photons each, unless told otherwise
+  settings.until.passes = 16;                               // of 200,000 photons each, the default
   settings.volume.radius = settings.surface.radius = 0.1f;  // m, of the first pass
   const vpm::RenderJob job = make_job(assemble(fog_in_a_box()), settings);
   const vpm::RenderResult result = render(job.scene, job.settings, vpm::nothing_rendered(job.scene.camera),

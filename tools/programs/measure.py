@@ -14,7 +14,7 @@ LEAST_PASSES = 4  # of the longest render: the shortest makes one
 
 
 def difference_of(program, picture, reference):
-    """What `vpm error` tells of two pictures. Throws RuntimeError with what it says where they cannot be compared."""
+    """What `vpm error` prints of two pictures. Throws RuntimeError with what it says where they cannot be compared."""
     done = subprocess.run([program, "error", "--json", str(picture), str(reference)], capture_output=True, text=True, errors="replace")
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())
@@ -22,15 +22,15 @@ def difference_of(program, picture, reference):
 
 
 def error_of(program, picture, reference):
-    """The error of a picture less the reference's noise, and that noise, or None where the reference does not tell it.
+    """The error of a picture less the reference's noise, and that noise, or None where the reference has no variance.
     Throws RuntimeError where they cannot be compared."""
-    told = difference_of(program, picture, reference)
-    noise = told["relative_mse"]["noise_of_reference"]
-    if told["crop"] is not None:
+    compared = difference_of(program, picture, reference)
+    noise = compared["relative_mse"]["noise_of_reference"]
+    if compared["crop"] is not None:
         raise RuntimeError(f"{picture} is only a part of the picture of {reference}, and all of it is measured")
-    if sum(told["non_finite_pixels"].values()) > 0:
+    if sum(compared["non_finite_pixels"].values()) > 0:
         raise RuntimeError(f"{picture} has pixels that are no finite numbers")
-    return told["relative_mse"]["value"] - (noise or 0), noise
+    return compared["relative_mse"]["value"] - (noise or 0), noise
 
 
 def commands_of(options, scene, passes, seed, folders):
@@ -120,12 +120,12 @@ def other_row(row, options, reference, table):
     """A picture by another renderer, and how long this program takes for the same error, by its medians."""
     error, _ = error_of(options.programs["after"], row.file, reference.file)
     curve = sorted((own["seconds"], own["error"]["median"]) for own in table if own["program"] == "after")
-    told = {"renderer": row.renderer, "file": str(row.file), "seconds": row.seconds, "error": error,
+    compared = {"renderer": row.renderer, "file": str(row.file), "seconds": row.seconds, "error": error,
             "efficiency": None, "vpm_seconds_for_that_error": None, "outside": None}
     if error > 0 and all(e > 0 for _, e in curve):
         seconds, outside = equal_error.time_of(curve, error)
-        told |= {"efficiency": 1 / (row.seconds * error), "vpm_seconds_for_that_error": seconds, "outside": outside}
-    return told
+        compared |= {"efficiency": 1 / (row.seconds * error), "vpm_seconds_for_that_error": seconds, "outside": outside}
+    return compared
 
 
 def measure(options, scene, others, progress):

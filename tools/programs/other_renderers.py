@@ -10,7 +10,7 @@ from programs.suite import InputError
 
 FIELDS = ("scene", "seconds", "file")
 
-# A picture by another renderer. `where` says which line of which file told of it.
+# A picture by another renderer. `where` is the line and file that lists it.
 Row = collections.namedtuple("Row", "renderer scene seconds file where")
 
 

@@ -82,7 +82,7 @@ def floats(values):
 
 
 def channel_difference(before, after):
-    """The largest difference of two channels of one size, infinite where none can be told.
+    """The largest difference of two channels of one size, infinite where there is none.
 
     It is relative to the mean magnitude of the first channel or, where that is more, to the pixel's: the last bit of a
     pixel that is a thousand times as bright as the mean is no fault, nor is any noise in one that should be black.

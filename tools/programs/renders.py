@@ -17,7 +17,7 @@ Errors are relative MSEs against the truth, as `vpm error` has them, less the re
 photons' radii counts. papers/performance.md says how references are made, and what the JSON file holds.
 
 Exit status: 0; 1 where the interval of the geometric mean lies below 1: this program is slower (fewer than 5 pairs
-do not tell); 2 for wrong input, or where a render fails; 130 where it was interrupted.
+decide nothing); 2 for wrong input, or where a render fails; 130 where it was interrupted.
 """
 import argparse
 import datetime
@@ -37,7 +37,7 @@ from programs.other_renderers import read_renderer
 from programs.suite import InputError, ROOT
 
 MOST_PAIRS = (suite.REFERENCE_SEED - 1) // 1000 * 1000
-MUCH = 0.2  # of an error: what a reference may be wrong by before it is told
+MUCH = 0.2  # of an error: what a reference may be wrong by before it is noted
 
 
 class Progress:
@@ -64,7 +64,7 @@ class Progress:
 
 
 def verdict(ratio, number_of_pairs):
-    """Whether a ratio tells that this program is slower or quicker; "" where it does not, as of fewer than 5 pairs."""
+    """Whether a ratio shows that this program is slower or quicker; "" where it does not, as of fewer than 5 pairs."""
     if number_of_pairs < 5:
         return ""
     return "SLOWER" if ratio["high"] < 1 else "quicker" if ratio["low"] > 1 else ""
@@ -72,10 +72,10 @@ def verdict(ratio, number_of_pairs):
 
 def print_scene(found):
     reference = found["reference"]
-    noise = "does not tell its noise" if reference["noise"] is None else f"has a noise of {reference['noise']:.2g}"
+    noise = "has no known noise" if reference["noise"] is None else f"has a noise of {reference['noise']:.2g}"
     stated = reference["stated"]
-    told = f", states an error of {stated['value']:.2g} +- {stated['standard_error']:.1g}" if stated else ""
-    print(f"{found['scene']}: the reference {noise}{told}")
+    stated_text = f", states an error of {stated['value']:.2g} +- {stated['standard_error']:.1g}" if stated else ""
+    print(f"{found['scene']}: the reference {noise}{stated_text}")
     names = {"after": "vpm", "before": "before"}
     for row in found["table"]:
         print(f"  {names[row['program']]:<24}{row['passes']:>8}{row['seconds']:>9.2f}{row['error']['median']:>12.3g}{row['efficiency'] or math.nan:>15.4g}")
@@ -114,7 +114,7 @@ def sha256(file):
 def describe_program(program):
     done = subprocess.run([program, "--version"], capture_output=True, text=True, errors="replace")
     if done.returncode != 0 or not done.stdout.strip():
-        raise InputError(f"{program}: it does not tell its --version, as vpm does")
+        raise InputError(f"{program}: it does not print its --version, as vpm does")
     return {"version": done.stdout.strip(), "sha256": sha256(program)}
 
 
@@ -128,13 +128,13 @@ def write_json(options, found, skipped, mean, programs):
     """Writes what there is so far, all or nothing."""
     if options.json is None:
         return
-    told = {"layout": "vpm bench renders 1", "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+    summary = {"layout": "vpm bench renders 1", "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
             "machine": {"processor": processor(), "cores": len(os.sched_getaffinity(0)), "system": platform.platform()},
             "programs": programs, "size": options.size, "pairs": options.pairs,
             "seconds": options.seconds, "confidence": pairs.interval([0] * options.pairs)[3],
             "scenes": found, "skipped": skipped, "geometric_mean": mean}
     part = options.json.with_name(options.json.name + ".part")
-    part.write_text(json.dumps(told, indent=1) + "\n")
+    part.write_text(json.dumps(summary, indent=1) + "\n")
     part.replace(options.json)
 
 
@@ -203,11 +203,11 @@ def check_sizes(options, rows):
     """Refuses pictures of another size, before hours are spent on what they stand beside."""
     for row in rows:
         try:
-            told = difference_of(options.programs["after"], row.file, row.file)
+            compared = difference_of(options.programs["after"], row.file, row.file)
         except RuntimeError as error:
             raise InputError(f"{row.where}: {error}") from error
-        if (told["width"], told["height"]) != (options.size, options.size):
-            raise InputError(f"{row.where}: {row.file} has {told['width']} x {told['height']} pixels, and pictures here have "
+        if (compared["width"], compared["height"]) != (options.size, options.size):
+            raise InputError(f"{row.where}: {row.file} has {compared['width']} x {compared['height']} pixels, and pictures here have "
                              f"{options.size} x {options.size}: render it at that size, or give --size")
 
 

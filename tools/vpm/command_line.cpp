@@ -28,7 +28,7 @@ void add_exposure(CLI::App* command, std::optional<float>& exposure, const std::
       ->check(check_stops);
 }
 
-/// What all commands that run passes are told; returns the option --passes.
+/// Options of all commands that run passes; returns the option --passes.
 CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std::string& usual_name) {
   command->add_option("-o,--output", options.output,
                       "Image to write (.exr); default: " + usual_name + ".exr in the current folder");
@@ -56,7 +56,7 @@ void add_scene(CLI::App* command, std::string& scene) {
   command->add_option("scene", scene, "Scene file (.toml)")->required();
 }
 
-/// What all are told that render a picture.
+/// Options of all that render a picture.
 void add_picture_options(CLI::App* command, RenderOptions& options, const std::string& usual_name) {
   CLI::Option* passes = add_pass_options(command, options, usual_name);
   command
@@ -102,7 +102,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
   command
       ->add_option("--pass-range", options.pass_range,
                    "Render a piece, of all passes those of these numbers: 0:64 ends with pass 63. vpm merge makes one "
-                   "picture of the pieces' checkpoints. --passes then tells how many there are in all, for what is "
+                   "picture of the pieces' checkpoints. --passes is then how many there are in all, for what is "
                    "\"auto\"")
       ->check(check_pass_range)
       ->excludes("--time")
@@ -202,22 +202,23 @@ void add_compare(CLI::App& app, CompareOptions& options) {
 }
 
 void add_info(CLI::App& app, InfoOptions& options) {
-  CLI::App* command = app.add_subcommand("info", "Tell what a scene or a .vdb file holds, and what a scene would run");
+  CLI::App* command = app.add_subcommand("info", "List what a scene or a .vdb file holds, and what a render would run");
   command->footer(
-      "Example: vpm info smoke.vdb tells the grids of a file; vpm info scenes/smoke.toml what a render would do.");
+      "Example: vpm info smoke.vdb lists the grids of a file; vpm info scenes/smoke.toml what a render would do.");
   command->add_option("file", options.file, "Scene (.toml) or grid file (.vdb)")->required();
   command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
       ->allow_extra_args(false);
-  command->add_flag("--all", options.all, "Also tell which stages are skipped and why, and details of grids");
+  command->add_flag("--all", options.all, "Also list which stages are skipped and why, and details of grids");
 }
 
 void add_error(CLI::App& app, ErrorOptions& options) {
-  CLI::App* command = app.add_subcommand("error", "Tell how far a picture is from a reference, or several from one");
-  command->footer("Example: vpm error smoke.exr reference.exr --worst 5 tells how far apart they are, and where most.");
+  CLI::App* command = app.add_subcommand("error", "Measure how far a picture is from a reference, or several from one");
+  command->footer(
+      "Example: vpm error smoke.exr reference.exr --worst 5 prints how far apart they are, and where most.");
   command->add_option("images", options.images, "Picture and reference (.exr); with --series the reference is the last")
       ->required();
-  CLI::Option* series = command->add_flag(
-      "--series", options.series, "A line for each picture, and how their errors fall with the passes they tell");
+  CLI::Option* series = command->add_flag("--series", options.series,
+                                          "A line for each picture, and how their errors fall with their passes");
   command->add_option("--layer", options.layer, "Name of the picture's layer to compare, or of a channel, as grey");
   command->add_option("--reference-layer", options.reference_layer, "The same of the reference");
   command->add_option("-o,--output", options.output, "File for the difference, picture less reference (.exr)")
@@ -292,7 +293,7 @@ std::string help_on(const std::string& problem) {
 void add_exact(CLI::App& app, ExactOptions& options) {
   CLI::App* command = app.add_subcommand("exact", "Solve a problem exactly; without one: list them with their keys");
   command->add_option("problem", options.problem, "Which one");
-  command->add_option("arguments", options.arguments, "What it is told: key=value");
+  command->add_option("arguments", options.arguments, "Its settings: key=value");
   command->add_flag("--json", options.json, "Print JSON");
   command->footer([&options] {
     return "Example: vpm exact slab tau=2 albedo=0.9 solves a slab of optical thickness 2.\n\n" +
@@ -321,7 +322,7 @@ void declare_commands(CLI::App& app, CommandLine& options) {
   add_exact(app, options.exact);
   app.footer(  // last: commands that are added later would have it, too
       "Example: vpm render scenes/smoke.toml --time 20 renders for 20 seconds to smoke.exr and smoke.png.\n"
-      "vpm help COMMAND tells the options of a command; scenes/README.md how scenes are written.");
+      "vpm help COMMAND lists the options of a command; scenes/README.md how scenes are written.");
 }
 
 }  // namespace vpm::tools

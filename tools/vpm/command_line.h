@@ -9,7 +9,7 @@ class App;
 
 namespace vpm::tools {
 
-/// What the commands are told: a parsed command line fills that of the command it names.
+/// Options of the commands: a parsed command line fills that of the command it names.
 struct CommandLine {
   RenderOptions render;
   ViewOptions view;

@@ -1,4 +1,4 @@
-// The subcommands of vpm: what each is told, and the functions that run them. They return the exit status.
+// The subcommands of vpm: the options of each, and the functions that run them. They return the exit status.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace vpm::tools {
 
-/// What all are told that run passes.
+/// Options of all that run passes.
 struct PassOptions {
   std::string scene;                   // a scene file
   std::string output;                  // .exr; empty: a name made of the scene's in the current folder

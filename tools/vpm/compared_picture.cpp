@@ -1,4 +1,4 @@
-// What the metadata and layers of files tell.
+// What the metadata and layers of files say.
 #include "compared_picture.h"
 
 #include <fmt/format.h>
@@ -22,11 +22,11 @@ std::optional<uint64_t> passes_of(const std::string& text) {
 }
 
 PictureOrigin origin_of(const std::map<std::string, std::string>& metadata) {
-  const auto told = [&](const char* name) {
+  const auto said = [&](const char* name) {
     const auto found = metadata.find(name);
     return found == metadata.end() ? std::string() : found->second;
   };
-  return {told("vpm.sceneHash"), told("vpm.settings"), told("vpm.seed"), passes_of(told("vpm.passes"))};
+  return {said("vpm.sceneHash"), said("vpm.settings"), said("vpm.seed"), passes_of(said("vpm.passes"))};
 }
 
 /// The variances of a file that has its picture without a name, as vpm writes it; nothing where they are not to be

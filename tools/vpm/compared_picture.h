@@ -1,4 +1,4 @@
-// A picture of a file as vpm error compares it: what it tells of its noise and of where it is from, and how far it is
+// A picture of a file as vpm error compares it: its noise, where it is from, and how far it is
 // from another.
 #pragma once
 
@@ -25,7 +25,7 @@ void check_same_size(const Image& image, const std::string& path, const Image& r
 /// Throws InputError as check_same_size().
 Errors errors_of(const Image& image, const std::string& path, const Image& reference, const std::string& to);
 
-/// What a file tells of where its picture is from; empty where it does not.
+/// What a file says of where its picture is from; empty where it does not.
 struct PictureOrigin {
   std::string scene, settings, seed;  // vpm.sceneHash, vpm.settings, vpm.seed
   std::optional<uint64_t> passes;     // vpm.passes
@@ -33,7 +33,7 @@ struct PictureOrigin {
   std::optional<std::string> integrator() const { return integrator_of(settings); }
 };
 
-/// A picture of a file, with what the file tells of its noise.
+/// A picture of a file, with its noise.
 struct ComparedPicture {
   NoisyImage picture;
   PictureOrigin origin;
@@ -47,7 +47,7 @@ ComparedPicture read_compared(const std::string& path, const std::string& layer)
 
 /// Errors over pixels that are not finite are not either: says on stderr that the picture has such.
 void warn_of_non_finite(const Image& image, const std::string& path);
-/// A noise of the picture; null where it does not tell.
+/// A noise of the picture; null where it is not known.
 Json noise_json(const NoisyImage& picture, double noise);
 
 }  // namespace vpm::tools

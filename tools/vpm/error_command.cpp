@@ -92,16 +92,16 @@ Json report_of_pair(const ErrorOptions& options, const Pair& pair) {
           {"worst_pixels", std::move(worst)}};
 }
 
-/// What of the relative MSE is noise, as far as the pictures tell.
+/// What of the relative MSE is noise, as far as the pictures have variances.
 void print_noise(const Pair& pair) {
   const NoisyDifference& d = pair.difference;
   if (!pair.picture.variance && !pair.reference.variance) {
-    fmt::print("{:<14} neither picture tells its noise (layers variance.*)\n", "");
+    fmt::print("{:<14} neither picture has its variance (layers variance.*)\n", "");
     return;
   }
   fmt::print("{:<14} {:.4g} +- {:.2g} less noise, of which {}, and {}\n", "", d.less_noise, d.standard_error,
-             pair.picture.variance ? fmt::format("I has {:.2g}", d.noise) : "I tells none",
-             pair.reference.variance ? fmt::format("R {:.2g}", d.noise_of_reference) : "R tells none");
+             pair.picture.variance ? fmt::format("I has {:.2g}", d.noise) : "I has none",
+             pair.reference.variance ? fmt::format("R {:.2g}", d.noise_of_reference) : "R has none");
   if (pair.same_seed)
     fmt::print(
         "{:<14} both are of the same seed: what noise they share does not show; render one with another --seed\n", "");

@@ -14,7 +14,7 @@
 namespace vpm::tools {
 namespace {
 
-/// What a reference's own noise adds to errors against it; 0 where it does not tell.
+/// What a reference's own noise adds to errors against it; 0 where it is not known.
 struct ReferenceNoise {
   double mse = 0.0, relative_mse = 0.0;
 };
@@ -47,7 +47,7 @@ Convergence convergence_of(const std::vector<Member>& series, const ReferenceNoi
   std::vector<double> x, y;
   for (const Member& member : series) {
     const PictureOrigin &origin = member.origin, &first = series[0].origin;
-    if (!origin.passes) return {std::nullopt, fmt::format("{} does not tell its passes (vpm.passes)", member.path)};
+    if (!origin.passes) return {std::nullopt, fmt::format("{} does not state its passes (vpm.passes)", member.path)};
     if (origin.scene != first.scene || origin.settings != first.settings)
       return {std::nullopt, fmt::format("{} has another scene or other settings than {}", member.path, series[0].path)};
     const double value = (member.*error)(noise);

@@ -1,4 +1,4 @@
-// What vpm exact can solve: a table of problems, the keys they are told, and the quantities they answer.
+// What vpm exact can solve: a table of problems, their keys, and the quantities they answer.
 #pragma once
 
 #include <limits>

@@ -134,7 +134,7 @@ void print_stages(const RenderJob& job, bool all) {
     skipped += skips;
     if (all || !skips) fmt::print("{}\n", line);
   }
-  if (!all && skipped > 0) fmt::print("skips {} other stages: --all tells which and why\n", skipped);
+  if (!all && skipped > 0) fmt::print("skips {} other stages: --all lists which and why\n", skipped);
 }
 
 void print_scene(const InfoOptions& options) {

@@ -45,9 +45,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::Success& asked) {
-    std::ostringstream told;  // in a stream of its own main() would not see that it cannot be written
-    app.exit(asked, told, told);
-    fmt::print("{}", told.str());
+    std::ostringstream help;  // in a stream of its own main() would not see that it cannot be written
+    app.exit(asked, help, help);
+    fmt::print("{}", help.str());
     return 0;
   } catch (const CLI::ParseError& refusal) {
     throw InputError(text_of_refusal(app, refusal));
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
   clock_of_process();
   std::signal(SIGXFSZ, SIG_IGN);  // a file larger than `ulimit -f` allows is an error of its writing, not vpm's end
   try {
-    const CancelScope told_to_end(stop_on_signals());
+    const CancelScope asked_to_end(stop_on_signals());
     const int status = run(argc, argv);
     if (std::fflush(stdout) == 0) return status;
     fmt::print(stderr, "vpm: cannot write to standard output: {}\n", std::strerror(errno));

@@ -16,7 +16,7 @@
 namespace vpm::tools {
 namespace {
 
-/// What pieces have become so far, and the first of them, which tells of what they are.
+/// What pieces have become so far, and the first of them, which says what they are of.
 struct Merged {
   std::string first;  // its path
   Checkpoint whole;

@@ -19,7 +19,7 @@ std::string check_crop(const std::string& text);        // "x0,y0,x1,y1", pixels
 std::string check_pass_range(const std::string& text);  // "64:128", numbers of passes
 std::string check_rate(const std::string& text);        // a probability between 0 and 1
 
-/// The numbers that a text of check_pass_range() tells.
+/// The numbers of a text that check_pass_range() accepts.
 PassRange pass_range(const std::string& text);
 
 /// A check that a text is a whole number from `lo` to `hi`.

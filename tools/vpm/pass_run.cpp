@@ -73,7 +73,7 @@ void apply_options(const PassOptions& options, RenderSettings& settings) {
 void refuse_automatic(const RenderJob& job, const std::string& command) {
   if (!job.automatic.keys.empty())
     throw InputError(fmt::format(
-        "{} chooses no settings: name a value of {} where it is \"auto\"; vpm render tells those that it chooses",
+        "{} chooses no settings: name a value of {} where it is \"auto\"; vpm render prints those that it chooses",
         command, fmt::join(job.automatic.to_be_named(), ", ")));
 }
 

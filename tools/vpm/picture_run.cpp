@@ -134,7 +134,7 @@ void apply_run_options(const RenderOptions& options, RenderJob& job) {
   until.seconds = until.error = 0.0;  // so that pieces choose alike
 }
 
-/// Refuses pieces beyond the passes that there are in all, where these are told.
+/// Refuses pieces beyond the passes that there are in all, where their number is given.
 void check_range(const RenderOptions& options) {
   if (options.pass_range.empty() || !options.passes || pass_range(options.pass_range).end <= *options.passes) return;
   throw InputError(fmt::format("--pass-range {}: --passes says that there are {} in all, 0:{}", options.pass_range,
@@ -163,7 +163,7 @@ RenderEnd render_finished_picture(const RenderOptions& options, const Outputs& o
   choose_all(options, outputs, job);
   apply_pass_range(options.pass_range, job.settings.until);
   const Identity identity = identity_of(job);
-  tell_render(ranks, identity);
+  send_render(ranks, identity);
   RenderResult begun = options.resume ? read_checkpoint(outputs.checkpoint, identity) : nothing_rendered(camera);
   std::optional<ErrorLog> log = make_error_log(options, outputs, begun.film, camera);
   look_ahead(options, job, begun);

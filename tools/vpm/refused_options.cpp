@@ -54,7 +54,7 @@ std::string text_of_refusal(const CLI::App& app, const CLI::ParseError& refusal)
   if (commands.empty()) return fmt::format("{}; vpm help lists commands and options", refusal.what());
   const CLI::App& command = *commands.front();
   const bool extras = dynamic_cast<const CLI::ExtrasError*>(&refusal) != nullptr;
-  return fmt::format("{}: {}\n  vpm help {} tells what it takes", command.get_name(),
+  return fmt::format("{}: {}\n  vpm help {} lists what it takes", command.get_name(),
                      extras ? text_of_extras(app, command) : refusal.what(), command.get_name());
 }
 

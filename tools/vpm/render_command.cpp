@@ -38,7 +38,7 @@ class GridsOfFirst {
  public:
   explicit GridsOfFirst(Ranks& machine) : machine_(machine) {}
 
-  /// As GridLoader does. How many values were clamped is not known here: the first rank tells it in its report.
+  /// As GridLoader does. How many values were clamped is not known here: the first rank reports it.
   LoadedGrid load(const std::string& medium, const GridRequest& request) {
     wait();
     if (!grids_) return load_grid(request);
@@ -48,7 +48,7 @@ class GridsOfFirst {
           fmt::format("the first rank of this machine reads another scene: without a grid of '{}'", medium));
     return LoadedGrid{found->second};
   }
-  /// Takes what the first has to tell, also where nothing was loaded.
+  /// Takes what the first sends, also where nothing was loaded.
   void wait() {
     if (heard_) return;
     heard_ = true;
@@ -58,7 +58,7 @@ class GridsOfFirst {
       not_there_ = not_there.what();
     }
   }
-  /// Why what the first shares cannot be had; "" where it can, or where it shares nothing, which it tells.
+  /// Why what the first shares cannot be had; "" where it can, or where it shares nothing, which it sends.
   const std::string& not_there() const { return not_there_; }
 
  private:
@@ -97,8 +97,8 @@ void say_not_shared(const Ranks& ranks, const RenderOptions& options, const std:
              why);
 }
 
-/// Calls run(), which is the whole work of a rank. What it throws is told once, and ends all ranks with the exit status
-/// of main(); of one process it is main() that tells.
+/// Calls run(), which is the whole work of a rank. What it throws is printed once, and ends all ranks with the exit
+/// status of main(); of one process main() prints it.
 int run_as_rank(Ranks& ranks, const std::function<int()>& run) {
   if (ranks.size() == 1) return run();
   try {
@@ -112,11 +112,11 @@ int run_as_rank(Ranks& ranks, const std::function<int()>& run) {
   }
 }
 
-/// Loads the scene, waits for what rank 0 tells, and makes passes for it. Throws InputError where this rank's scene or
+/// Loads the scene, waits for orders of rank 0, and makes passes for it. Throws InputError where this rank's scene or
 /// program is another.
 int make_passes_for_leader(Ranks& ranks, const RenderOptions& options) {
   leave_signals_to_leader();
-  // What is wrong with the scene, rank 0 tells: this rank only where rank 0 has found nothing.
+  // What is wrong with the scene, rank 0 prints: this rank only where rank 0 has found nothing.
   JobOfRank loaded;
   std::exception_ptr wrong;
   try {
@@ -124,10 +124,10 @@ int make_passes_for_leader(Ranks& ranks, const RenderOptions& options) {
   } catch (...) {
     wrong = std::current_exception();
   }
-  const Identity led = told_render(ranks);
+  const Identity led = receive_render(ranks);
   if (wrong) std::rethrow_exception(wrong);
   say_not_shared(ranks, options, loaded.not_shared);  // only now: where rank 0 has ended, its memory is gone, too
-  render_as_told(loaded.job, led);
+  adopt_render(loaded.job, led);
   make_render(ranks, loaded.job.scene, loaded.job.settings);
   return 0;
 }

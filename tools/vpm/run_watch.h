@@ -18,7 +18,7 @@ class RunWatch {
   /// Writes all files of the run. Throws InputError where one cannot be written.
   using WriteFiles = std::function<void(const RenderResult& so_far)>;
 
-  /// Shows an image of that name, of the film's size, in the viewer; where that is not there, stderr is told.
+  /// Shows an image of that name, of the film's size, in the viewer; where that is not there, stderr says so.
   /// `progress` is how the run shows its own.
   RunWatch(const WatchOptions& options, ProgressMode progress, const std::string& name, const Film& film,
            WriteFiles write);

@@ -37,7 +37,7 @@ Addresses look_up(const std::string& host, const std::string& port) {
   return {found, &freeaddrinfo};
 }
 
-/// Waits until the socket has room, or an error that its next use tells: 0 then. ETIMEDOUT after the deadline.
+/// Waits until the socket has room, or an error that its next use reports: 0 then. ETIMEDOUT after the deadline.
 int wait_for_room(int socket, TcpSender::Deadline deadline) {
   while (true) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());

@@ -1,4 +1,4 @@
-// This process: how long it has run, whether it has been told to end, and what it says and how it ends where a command
+// This process: how long it has run, whether it has been asked to end, and what it says and how it ends where a command
 // fails.
 #pragma once
 

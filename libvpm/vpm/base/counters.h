@@ -44,7 +44,7 @@ concept ListsCounters = requires {
   T::counters();
 };
 
-/// Does the list name every member? Told by their sizes, of structures without padding.
+/// Does the list name every member? By their sizes, for structures without padding.
 template <ListsCounters T>
 consteval bool lists_every_member() {
   const auto size = []<class Counts, class M>(const Counter<Counts, M>&) { return sizeof(M); };

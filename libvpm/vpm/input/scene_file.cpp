@@ -105,7 +105,7 @@ SceneParts parts_of(ScenePlan& plan) {
   return parts;
 }
 
-/// Tells what is wrong with a part at its place in the file: at the key of that name where the part's table has it.
+/// Refuses what is wrong with a part at its place in the file: at the key of that name where the part's table has it.
 [[noreturn]] void fail_at_part(const PartError& error, const TableReader& root, const ScenePlan& plan) {
   const PartName& part = error.part();
   const auto fail = [&](const TableReader& table, const std::string& key) {
@@ -245,7 +245,7 @@ RenderJob load_scene(const std::string& path, const std::vector<std::string>& op
   if (std::filesystem::path(path).extension() == ".vdb")
     throw InputError(fmt::format(
         "{}: this is a grid, not a scene: a scene file (.toml) names it in a medium, as scenes/smoke.toml does; "
-        "vpm info {} tells what it holds",
+        "vpm info {} lists what it holds",
         path, path));
   if (lower_extension(path) == ".pbrt")
     throw InputError(path + ": this is a scene of pbrt's, which is not read; scenes here are .toml files");

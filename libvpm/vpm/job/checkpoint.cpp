@@ -65,11 +65,11 @@ Parts parts_of(const std::filesystem::path& path, std::string_view bytes) {
     refuse(path, fmt::format("it is written by another format of checkpoints, {}; this program reads {}; render again",
                              number, kCheckpointFormat));
   const std::optional<Identity> identity = take_lines(bytes, kIdentity), origin = take_lines(bytes, kOrigin);
-  if (!identity || !origin) refuse(path, "it is damaged or not whole: it does not tell what it is of");
+  if (!identity || !origin) refuse(path, "it is damaged or not whole: it does not say what it is of");
   try {
     return {*identity, origin_from(*origin), bytes};
   } catch (const std::invalid_argument&) {
-    refuse(path, "it is damaged: it does not tell where its scene is read from");
+    refuse(path, "it is damaged: it does not say where its scene is read from");
   }
 }
 

@@ -106,15 +106,15 @@ std::optional<Identity> take_lines(std::string_view& text, std::string_view titl
 
 std::string differences(const Identity& a, const Identity& b, const std::string& of_a, const std::string& of_b) {
   std::string lines;
-  const auto tell = [&](const std::string& name, const std::string* there, const std::string* here) {
+  const auto list = [&](const std::string& name, const std::string* there, const std::string* here) {
     lines += fmt::format("\n  {}: {} {}, {} {}", name, value_or_nothing(there), of_a, value_or_nothing(here), of_b);
   };
   for (const auto& [name, value] : a) {
     const std::string* const other = find(b, name);
-    if (!other || *other != value) tell(name, &value, other);
+    if (!other || *other != value) list(name, &value, other);
   }
   for (const auto& [name, value] : b)
-    if (!find(a, name)) tell(name, nullptr, &value);
+    if (!find(a, name)) list(name, nullptr, &value);
   return lines.empty() && a != b ? "\n  the same keys stand in another order" : lines;
 }
 

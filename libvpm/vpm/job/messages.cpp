@@ -149,7 +149,7 @@ std::vector<std::string> all_warnings(const SceneFacts& shown, const RenderJob& 
   if (std::string lost = lost_light_of(job); !lost.empty()) warnings.push_back(std::move(lost));
   if (finds_no_light(job.scene, result.film))
     warnings.emplace_back(
-        "the picture is black: no light was found, and no error tells what is missing; another integrator, or "
+        "the picture is black: no light was found, and no error shows what is missing; another integrator, or "
         "more passes, may find some");
   if (const double error = job.settings.until.error; error > 0.0 && highest_error(result) > error)
     warnings.push_back(

@@ -143,12 +143,12 @@ void foresee(RenderJob& job, const Clock& clock) {
   };
   std::string wide;
   if (!within(looking, [&] { wide = wide_gather_text(job.scene, job.settings); }))
-    wide = fmt::format("a look of {:.2g} s does not tell how many photons a ray gathers", looking);
+    wide = fmt::format("a look of {:.2g} s is too short to count the photons that a ray gathers", looking);
   if (!wide.empty()) job.notes.push_back(std::move(wide));
   if (std::isinf(left)) return;
   PassCost cost;
   if (!within(2.0 * looking, [&] { cost = time_pass(job.scene, job.settings, looking); })) {
-    job.notes.push_back(fmt::format("a look of {:.2g} s does not tell how long a pass takes", 2.0 * looking));
+    job.notes.push_back(fmt::format("a look of {:.2g} s is too short to time a pass", 2.0 * looking));
     return;
   }
   const double share = share_rendered(job.scene.camera);

@@ -23,7 +23,7 @@ std::vector<Medium*> media_with_grids(Scene& scene) {
   return media;
 }
 
-void tell_others(Ranks& machine, const std::string& bytes) {
+void send_to_all(Ranks& machine, const std::string& bytes) {
   for (int rank = 1; rank < machine.size(); ++rank) machine.send(rank, bytes);
 }
 
@@ -61,14 +61,14 @@ std::string program() { return std::string(version()) + "\n"; }
 std::error_code share_grids(Ranks& machine, Scene& scene) {
   const std::vector<Medium*> media = media_with_grids(scene);
   if (media.empty()) {
-    tell_others(machine, program());
+    send_to_all(machine, program());
     return {};
   }
   std::shared_ptr<SharedMemory> memory;
   try {
     memory = std::make_shared<SharedMemory>(packed_bytes(media));
   } catch (const std::system_error& refused) {
-    tell_others(machine, {});
+    send_to_all(machine, {});
     return refused.code();
   }
   TablePacker packer(memory->data());
@@ -76,15 +76,15 @@ std::error_code share_grids(Ranks& machine, Scene& scene) {
   memory->finish();
   const GridsOfMedia grids = grids_in(memory);
   for (Medium* medium : media) medium->grid = grids.at(medium->name);
-  tell_others(machine, program() + memory->address());
+  send_to_all(machine, program() + memory->address());
   return {};
 }
 
 std::optional<GridsOfMedia> shared_grids(Ranks& machine) {
-  const std::string told = wait_for_message(machine).bytes;
-  if (told.empty()) return std::nullopt;
-  if (!told.starts_with(program())) throw InputError("the first rank of this machine is another vpm");
-  const std::string address = told.substr(program().size());
+  const std::string received = wait_for_message(machine).bytes;
+  if (received.empty()) return std::nullopt;
+  if (!received.starts_with(program())) throw InputError("the first rank of this machine is another vpm");
+  const std::string address = received.substr(program().size());
   if (address.empty()) return GridsOfMedia{};
   return grids_in(std::make_shared<const SharedMemory>(address));
 }

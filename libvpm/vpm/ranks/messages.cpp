@@ -72,17 +72,17 @@ void send_to_others(Ranks& ranks, const std::string& bytes) {
 
 }  // namespace
 
-void tell_render(Ranks& ranks, const Identity& identity) { send_to_others(ranks, lines_of(kToRender, identity)); }
+void send_render(Ranks& ranks, const Identity& identity) { send_to_others(ranks, lines_of(kToRender, identity)); }
 
-Identity told_render(Ranks& ranks) {
+Identity receive_render(Ranks& ranks) {
   const Message message = wait_for_message(ranks);
   std::string_view text = message.bytes;
-  const std::optional<Identity> told = take_lines(text, kToRender);
-  if (!told) throw std::runtime_error("rank 0 is another program");
-  return *told;
+  const std::optional<Identity> received = take_lines(text, kToRender);
+  if (!received) throw std::runtime_error("rank 0 is another program");
+  return *received;
 }
 
-void render_as_told(RenderJob& job, const Identity& led) {
+void adopt_render(RenderJob& job, const Identity& led) {
   if (job.automatic.any()) choose_again(job, choices_of(led));
   const Identity own = identity_of(job);
   if (own == led) return;
@@ -90,11 +90,11 @@ void render_as_told(RenderJob& job, const Identity& led) {
                    differences(led, own, "of rank 0", "here"));
 }
 
-void tell_result(Ranks& ranks, const RenderResult& result) {
+void send_result(Ranks& ranks, const RenderResult& result) {
   if (ranks.size() > 1) send_to_others(ranks, bytes_of(result));
 }
 
-RenderResult told_result(Ranks& ranks) {
+RenderResult receive_result(Ranks& ranks) {
   RenderResult result = result_of(wait_for_message(ranks).bytes);
   result.errors = errors_of(result);  // as at the end of a render
   return result;

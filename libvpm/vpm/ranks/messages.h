@@ -17,20 +17,20 @@ std::string bytes_of(const Pass& pass);
 /// Back to the last bit. Throws FieldError where the bytes are no pass.
 Pass pass_of(std::string_view bytes);
 
-/// Tells all other ranks what is to be rendered, by rank 0.
-void tell_render(Ranks& ranks, const Identity& identity);
+/// Sends all other ranks what is to be rendered; called by rank 0.
+void send_render(Ranks& ranks, const Identity& identity);
 
-/// The message of tell_render(), once it comes. Throws std::runtime_error where rank 0 is another program.
-Identity told_render(Ranks& ranks);
+/// The message of send_render(), once it comes. Throws std::runtime_error where rank 0 is another program.
+Identity receive_render(Ranks& ranks);
 
 /// Makes the choices that rank 0 has made for a job in which settings are left to be chosen. Throws InputError where
 /// this rank's scene, program or options are others.
-void render_as_told(RenderJob& job, const Identity& led);
+void adopt_render(RenderJob& job, const Identity& led);
 
-/// Tells all other ranks what was rendered, by rank 0: to the last bit.
-void tell_result(Ranks& ranks, const RenderResult& result);
+/// Sends all other ranks what was rendered, to the last bit; called by rank 0.
+void send_result(Ranks& ranks, const RenderResult& result);
 
-/// The message of tell_result(), once it comes. Throws FieldError where the message is something else.
-RenderResult told_result(Ranks& ranks);
+/// The message of send_result(), once it comes. Throws FieldError where the message is something else.
+RenderResult receive_result(Ranks& ranks);
 
 }  // namespace vpm

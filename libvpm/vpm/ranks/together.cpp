@@ -46,7 +46,7 @@ class Leader {
       : ranks_(ranks),
         pool_(pool),
         flags_(cancel_flags),
-        told_to_leave_(ranks.size(), false),
+        asked_to_leave_(ranks.size(), false),
         answering_([this] { answer(); }),
         making_([this, &maker] { make(maker); }) {}
   ~Leader() {
@@ -69,7 +69,7 @@ class Leader {
         return;
       }
       if (pool_.closed())
-        for (int rank = 1; rank < ranks_.size(); ++rank) tell_to_leave(rank);
+        for (int rank = 1; rank < ranks_.size(); ++rank) ask_to_leave(rank);
       std::erase_if(asking_, [this](int rank) { return answer(rank); });
       if (const std::optional<Message> message = ranks_.poll())
         take(*message);
@@ -85,21 +85,21 @@ class Leader {
     if (kind == kLeft) ++left_;
   }
 
-  /// Tells a rank what to do; false where it has to wait.
+  /// Gives a rank work; false where it has to wait.
   bool answer(int rank) {
     const PassPool::Task task = pool_.try_take();
     if (task.order == PassPool::Order::wait) return false;
     if (task.order == PassPool::Order::make)
       ranks_.send(rank, kMake + std::to_string(task.number));
     else
-      tell_to_leave(rank);
+      ask_to_leave(rank);
     return true;
   }
 
   /// Once: it is the last message to a rank.
-  void tell_to_leave(int rank) {
-    if (told_to_leave_[rank]) return;
-    told_to_leave_[rank] = true;
+  void ask_to_leave(int rank) {
+    if (asked_to_leave_[rank]) return;
+    asked_to_leave_[rank] = true;
     ranks_.send(rank, std::string{kLeave});
   }
 
@@ -131,7 +131,7 @@ class Leader {
   std::atomic<bool> halt_{false};
   // Of the answering thread:
   std::vector<int> asking_;  // ranks that wait for an answer
-  std::vector<bool> told_to_leave_;
+  std::vector<bool> asked_to_leave_;
   int left_ = 0;
   std::thread answering_, making_;  // last: they use the rest
 };
@@ -152,7 +152,7 @@ class Orders {
   /// The number of the next pass, once it comes; nothing where there is no more.
   std::optional<int> next() {
     std::unique_lock lock(mutex_);
-    while (!told_.wait_for(lock, kBetweenLooks, [this] { return leave_ || number_; })) cancellation_point();
+    while (!wake_.wait_for(lock, kBetweenLooks, [this] { return leave_ || number_; })) cancellation_point();
     return leave_ ? std::nullopt : std::exchange(number_, std::nullopt);
   }
 
@@ -173,12 +173,12 @@ class Orders {
       leave_ = true;
     else
       number_ = number_in(std::string_view(message.bytes).substr(1));
-    told_.notify_one();
+    wake_.notify_one();
   }
 
   Ranks& ranks_;
   std::mutex mutex_;
-  std::condition_variable told_;
+  std::condition_variable wake_;
   std::atomic<bool> leave_{false};
   std::optional<int> number_;
   std::thread listening_;  // last: it uses the rest

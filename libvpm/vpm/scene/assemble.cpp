@@ -40,7 +40,7 @@ bool check_grid(const SceneParts& parts, size_t number) {
                     "remove [world]");
   if (boxed && background != 0.0f)
     throw PartError({PartKind::medium, number}, "the grid of '" + part.medium.name + "' has a background other than 0",
-                    "name the medium as a shape's 'inside', so that the shape tells where it ends");
+                    "name the medium as a shape's 'inside', so that the shape bounds it");
   return boxed;
 }
 

@@ -40,7 +40,7 @@ void check_materials(const SceneParts& parts) {
     const std::string problem = problem_of(material);
     if (!problem.empty()) throw PartError({PartKind::material, i}, problem);
     if (parts.materials[i].texture && !reflectance_of(material))
-      throw PartError({PartKind::material, i, "texture"}, "a texture tells a reflectance, which this material lacks",
+      throw PartError({PartKind::material, i, "texture"}, "a texture is a reflectance, which this material lacks",
                       "remove it, or make the material lambertian or a mirror");
   }
 }

@@ -136,7 +136,7 @@ std::optional<CommonFace> find_common_face(const Scene& scene) {
 
 namespace {
 
-/// Tells of a scene so far from the origin that the spacing of floats there shows in its shapes.
+/// Warns of a scene so far from the origin that the spacing of floats there shows in its shapes.
 void note_unresolved_place(const Box& bounds, std::vector<std::string>& notes) {
   if (bounds.empty()) return;
   constexpr double kVisible = 1e-4;  // of the scene's size
@@ -150,7 +150,7 @@ void note_unresolved_place(const Box& bounds, std::vector<std::string>& notes) {
         bounds.diagonal(), glm::length(bounds.center()), spacing));
 }
 
-/// Tells of media whose free paths are shorter than floats resolve positions: what enters these does not come out
+/// Warns of media whose free paths are shorter than floats resolve positions: what enters these does not come out
 /// again.
 void note_unresolved_media(const Scene& scene, std::vector<std::string>& notes) {
   constexpr double kSparse = 0.1;  // of a grid's diagonal

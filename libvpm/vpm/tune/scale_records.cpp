@@ -125,7 +125,7 @@ void scale(const Scene& scene, const RecordFactors& factors, RenderSettings& set
     const std::string before = std::exchange(choice.value, scaled(choice, factors, scene.bounds.diagonal()));
     if (choice.value == before) continue;
     choice.reason =
-        fmt::format("{}: {}; then times {:g}, which is told to leave less error", before, choice.reason, factor);
+        fmt::format("{}: {}; then times {:g}, which is expected to leave less error", before, choice.reason, factor);
     set_chosen(settings, choice.key, choice.value);
   }
 }

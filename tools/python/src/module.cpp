@@ -44,7 +44,7 @@ std::optional<py::error_already_set> run_interruptibly(const std::function<void(
   std::optional<py::error_already_set> raised;
   const py::gil_scoped_release others_run;
   std::future<void> done = std::async(std::launch::async, [&] {
-    const CancelScope told_to_end(stop);
+    const CancelScope asked_to_end(stop);
     try {
       work();
     } catch (const Cancelled&) {

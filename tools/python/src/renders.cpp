@@ -48,7 +48,7 @@ StopRule stop_rule(std::optional<int> passes, std::optional<double> seconds, std
   return otherwise;
 }
 
-/// Is it this process that writes files, and tells the others?
+/// Is it this process that writes files, and sends the others their work?
 bool leads(JoinedRanks* together) { return !together || together->ranks().leads(); }
 
 /// run_interruptibly() of what processes do together, or of what this one does by itself.
@@ -81,9 +81,9 @@ std::shared_ptr<Passes> begin(const std::shared_ptr<SceneJob>& scene, std::optio
       if (leads(begun->together)) {
         choose(job, clock);
         foresee(job, clock);
-        if (begun->together) tell_render(begun->together->ranks(), identity_of(job));
+        if (begun->together) send_render(begun->together->ranks(), identity_of(job));
       } else {
-        render_as_told(job, told_render(begun->together->ranks()));
+        adopt_render(job, receive_render(begun->together->ranks()));
       }
     });
   });
@@ -106,10 +106,10 @@ RenderResult render_with(JoinedRanks* together, const RenderJob& job, RenderResu
   Ranks& ranks = together->ranks();
   if (!ranks.leads()) {
     make_render(ranks, job.scene, job.settings);
-    return told_result(ranks);
+    return receive_result(ranks);
   }
   RenderResult result = lead_render(ranks, job.scene, job.settings, std::move(begun), control);
-  if (!is_cancelled()) tell_result(ranks, result);  // else the others may be gone
+  if (!is_cancelled()) send_result(ranks, result);  // else the others may be gone
   return result;
 }
 
@@ -135,15 +135,15 @@ std::pair<std::shared_ptr<Passes>, py::object> advance(const Passes& before, boo
 py::object stated_error_dict(const Passes& passes) {
   const std::optional<StatedError> stated = stated_error_of(passes.result);
   if (!stated) return py::none();
-  py::dict told;
-  told["total"] = stated->total.value;
-  told["total_standard_error"] = stated->total.standard_error;
-  told["variance"] = stated->variance.value;
-  told["variance_standard_error"] = stated->variance.standard_error;
-  told["squared_bias"] = stated->squared_bias.value;
-  told["squared_bias_standard_error"] = stated->squared_bias.standard_error;
-  told["highest"] = stated->highest;
-  return told;
+  py::dict error;
+  error["total"] = stated->total.value;
+  error["total_standard_error"] = stated->total.standard_error;
+  error["variance"] = stated->variance.value;
+  error["variance_standard_error"] = stated->variance.standard_error;
+  error["squared_bias"] = stated->squared_bias.value;
+  error["squared_bias_standard_error"] = stated->squared_bias.standard_error;
+  error["highest"] = stated->highest;
+  return error;
 }
 
 /// Arrays (height, width, channels), or (height, width) where there is one channel.

@@ -37,9 +37,9 @@ py::list solve_exactly(const std::string& name, const std::vector<std::string>& 
     quantities = problem.solve(arguments);
     arguments.expect_all_read();
   }
-  py::list told;
-  for (const tools::ExactQuantity& quantity : quantities) told.append(tuple_of(quantity));
-  return told;
+  py::list found;
+  for (const tools::ExactQuantity& quantity : quantities) found.append(tuple_of(quantity));
+  return found;
 }
 
 /// Of each problem its name, what it is, and its keys: name, meaning, what it is otherwise, whether it must be given.
@@ -69,20 +69,20 @@ py::tuple tuple_of(const Rgbd& c) { return py::make_tuple(c.r, c.g, c.b); }
 
 py::dict difference(const NoisyArray& one, const NoisyArray& other) {
   const NoisyImage picture = noisy_image(one), reference = noisy_image(other);
-  py::dict told;
-  told["mse"] = mse(picture.image, reference.image);
-  told["relative_mse"] = relative_mse(picture.image, reference.image);
-  told["relative_mse_of_pbrt"] = relative_mse_of_pbrt(picture.image, reference.image);
-  told["means"] = tuple_of(channel_means(picture.image));
-  told["means_of_reference"] = tuple_of(channel_means(reference.image));
+  py::dict found;
+  found["mse"] = mse(picture.image, reference.image);
+  found["relative_mse"] = relative_mse(picture.image, reference.image);
+  found["relative_mse_of_pbrt"] = relative_mse_of_pbrt(picture.image, reference.image);
+  found["means"] = tuple_of(channel_means(picture.image));
+  found["means_of_reference"] = tuple_of(channel_means(reference.image));
   const NoisyDifference apart = noisy_difference(picture, reference);
-  told["difference_of_means"] = tuple_of(apart.of_channel_means);
-  told["standard_errors_of_means"] = tuple_of(apart.standard_errors);
-  told["less_noise"] = apart.less_noise;
-  told["standard_error"] = apart.standard_error;
-  told["noise"] = apart.noise;
-  told["noise_of_reference"] = apart.noise_of_reference;
-  return told;
+  found["difference_of_means"] = tuple_of(apart.of_channel_means);
+  found["standard_errors_of_means"] = tuple_of(apart.standard_errors);
+  found["less_noise"] = apart.less_noise;
+  found["standard_error"] = apart.standard_error;
+  found["noise"] = apart.noise;
+  found["noise_of_reference"] = apart.noise_of_reference;
+  return found;
 }
 
 /// The picture, its planes by their names, its attributes, the pixels that the file has, what was done to the picture,

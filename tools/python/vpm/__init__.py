@@ -5,7 +5,7 @@
     result.radiance                     # array (height, width, 3), float32, W/(m^2 sr)
     result.write("smoke.exr")           # what `vpm render` writes
 
-`Scene`, `Grid` and `Mesh` make scenes; `render` and `passes` render them; `error`, `exact` and `read_comparison` tell
+`Scene`, `Grid` and `Mesh` make scenes; `render` and `passes` render them; `error`, `exact` and `read_comparison` say
 how good pictures are. Lengths are in m, coefficients in 1/m, radiance in W/(m^2 sr).
 """
 from ._render import Interrupted, Result, passes, render

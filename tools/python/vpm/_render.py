@@ -91,9 +91,9 @@ class Result:
 
     @functools.cached_property
     def stated_error(self) -> dict[str, float] | None:
-        """What the passes tell of the relative MSE of their mean: "total", "variance" and "squared_bias" with their
+        """What the passes show of the relative MSE of their mean: "total", "variance" and "squared_bias" with their
         standard errors, and "highest", which total is below with a confidence of about 80 %. None below eight passes,
-        which tell too little."""
+        which show too little."""
         return self._passes.stated_error()
 
     @property
@@ -114,8 +114,8 @@ class Result:
     @property
     def report(self) -> dict[str, Any]:
         """The report that the command line writes as JSON: provenance, times, counts, the energy ledger."""
-        told: dict[str, Any] = json.loads(self._passes.report())
-        return told
+        report: dict[str, Any] = json.loads(self._passes.report())
+        return report
 
     def write(self, path: str | os.PathLike[str], *, exposure: float | None = None) -> None:
         """Writes what `vpm render -o PATH` writes: the EXR, its PNG preview and its JSON report beside it. `exposure`:

@@ -89,11 +89,11 @@ class Scene:
         may have a `grid` that is a `Grid`, or an array of one whose voxels are 1 m apart, in the place of `path`; a
         shape of the type "mesh" may have a `mesh` that is a `Mesh`. Files that a dict names are relative to the
         current folder.
-    overrides: what `--set` is told on the command line: a dict {"film.width": 64, "shapes.ball.radius": 2.0}, or a
+    overrides: what `--set` takes on the command line: a dict {"film.width": 64, "shapes.ball.radius": 2.0}, or a
         list of texts "key.path=value".
     auto: choose what is left out, and all of `[integrator]` where no override names one, as `vpm render --auto` does.
 
-    Raises InputError for what is not right, with the text of the command line. Of a dict it tells the line in the text
+    Raises InputError for what is not right, with the text of the command line. Of a dict it names the line in the text
     of a scene file that says the same; `Scene.text_of(source)` is that text.
     """
 
@@ -131,7 +131,7 @@ class Scene:
 
     @property
     def hash(self) -> str:
-        """Tells this scene and its settings from others, 16 hex digits; arrays and the bytes of files count."""
+        """Identifies this scene and its settings, 16 hex digits; arrays and the bytes of files count."""
         return self._job.hash
 
     @property

@@ -31,7 +31,7 @@ def exact(problem: str, **keys: Any) -> dict[str, Quantity]:
 
     vpm.exact("slab", tau=2, albedo=0.9, g=0.75)["reflectance"].value
 
-    `exact_problems()` tells the problems and their keys. Raises InputError as `vpm exact` does.
+    `exact_problems()` lists the problems and their keys. Raises InputError as `vpm exact` does.
     """
     given = [f"{key}={_text(value)}" for key, value in keys.items()]
     return {name: _quantity(rest) for name, *rest in _vpm.exact(problem, given)}
@@ -103,8 +103,8 @@ class Errors(NamedTuple):
 
 
 def error(picture: Pictured, reference: Pictured) -> Errors:
-    """How far a picture is from a reference, as `vpm error` tells it. Both are results of renders, EXR files (paths,
-    or what `read_exr` returns) or arrays (height, width, 3). All but arrays tell their noise, too. Where one is a crop,
+    """How far a picture is from a reference, as `vpm error` prints it. Both are results of renders, EXR files (paths,
+    or what `read_exr` returns) or arrays (height, width, 3). All but arrays have their noise, too. Where one is a crop,
     they are compared in the pixels that both have."""
     one, other = _in_common(_noisy(picture), _noisy(reference))
     (height, width), (to_height, to_width) = one.image.shape[:2], other.image.shape[:2]
@@ -174,8 +174,8 @@ def _text(value: Any) -> str:
     return ",".join(repr(float(number)) for number in np.atleast_1d(np.asarray(value, np.float64)))
 
 
-def _quantity(told: list[Any]) -> Quantity:
-    unit, place, place_unit, places, values, errors = told
+def _quantity(found: list[Any]) -> Quantity:
+    unit, place, place_unit, places, values, errors = found
     if not place:
         return Quantity(float(values[0]), float(errors[0]), unit)
     return Quantity(values, errors, unit, places, place, place_unit)

@@ -56,7 +56,7 @@ std::string settings_text(const RenderJob& loaded) {
   return text;
 }
 
-/// Only time tells what a pilot costs, and it chooses for some time; references have no end that is a time.
+/// Only time can pay for a pilot, and it chooses for some time; references have no end that is a time.
 void check_choices(const Entrant& entrant, CostUnit unit, const std::string& who) {
   if (!entrant.loaded.automatic.keys.empty() && unit != CostUnit::seconds)
     throw InputError(
@@ -108,7 +108,7 @@ Reference exact_reference(const ComparedScene& scene) {
   }
 }
 
-/// Loads everything that will be needed, so that what is wrong is told before anything is rendered.
+/// Loads everything that will be needed, so that what is wrong is refused before anything is rendered.
 std::vector<Contest> load_contests(const ComparisonPlan& plan) {
   std::vector<Contest> contests;
   for (const ComparedScene& scene : plan.scenes) {
@@ -204,7 +204,7 @@ bool has_bounded_weights(const RenderJob& loaded) {
   return info.bounded_weight || (!grids && info.positive);
 }
 
-/// Why a bias cannot be told from repetitions; empty where it can. Means of heavy-tailed weights look biased in nearly
+/// Why repetitions cannot show a bias; empty where they can. Means of heavy-tailed weights look biased in nearly
 /// all repetitions, and their intervals lie.
 std::string why_bias_unknown(const RenderJob& loaded, const std::vector<RunCost>& costs) {
   if (loaded.scene.media.empty() || has_bounded_weights(loaded)) return "";

@@ -29,7 +29,7 @@ Json comparison_json(const Comparison& comparison) {
   return json;
 }
 
-/// The processor's name, as Linux tells it.
+/// The processor's name, as Linux names it.
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)
@@ -244,7 +244,7 @@ std::string results_json(const ComparisonPlan& plan, const std::vector<SceneResu
          "1 / (variance x cost), over that of the best method; the variance is half the mean square of differences "
          "between two repetitions, over the scale of relative_mse"},
         {"squared_bias", "relative MSE of the mean of repetitions, less its variance"},
-        {"efficiency", "1 / (relative MSE x cost), over that of the best method; whether two differ, pairs tell"},
+        {"efficiency", "1 / (relative MSE x cost), over that of the best method; whether two differ is seen by pairs"},
         {"share_of_light",
          "of a technique, where a method has integrator.layers: the sum over pixels and channels of what it finds, "
          "times its shares, over that of all techniques; mean over repetitions, as all of techniques"},

@@ -213,11 +213,11 @@ Reference read_reference(const fs::path& path) {
   if (std::optional<Image> variance = layer_of(file, "variance"))
     reference.variance = std::move(*variance);
   else
-    reference.doubt = "the reference does not tell its own noise";
+    reference.doubt = "the reference has no variance";
   const auto settings = file.metadata.find("vpm.settings");
   if (settings != file.metadata.end()) {
     const std::optional<std::string> integrator = integrator_of(settings->second);
-    if (!integrator) reference.doubt = "the reference does not tell what estimated it";
+    if (!integrator) reference.doubt = "the reference does not say what estimated it";
     if (integrator == "photon-map") reference.doubt = kOfPhotons;
   }
   return reference;

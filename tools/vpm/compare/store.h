@@ -62,7 +62,7 @@ inline constexpr const char* kOfPhotons = "the reference is of photons and may b
 
 /// A reference read from a file: R, G, B, and the variance of these where the file has it (variance.R, ...), as those
 /// have that vpm writes; else errors are computed as if it were exact, but biases against it are in doubt. So they are
-/// where the file tells that photons made it.
+/// where the file says that photons made it.
 Reference read_reference(const std::filesystem::path& path);
 
 }  // namespace vpm::tools

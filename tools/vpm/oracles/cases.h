@@ -36,7 +36,7 @@ class OracleCase {
 
   const std::string& place() const { return place_; }
   const OracleValue::Object& fields() const { return fields_.get(); }
-  /// "id", or the fields that tell the case from others.
+  /// "id", or the fields that identify the case.
   std::string id() const;
   bool has(std::string_view field) const;
   /// A finite number, or text that is one.
@@ -67,7 +67,7 @@ class OracleCase {
   std::string place_;
 };
 
-/// What became of a case: its checks; or why there are none, or none that tells anything.
+/// What became of a case: its checks; or why there are none, or none that can fail.
 struct CaseResult {
   std::string id;
   std::vector<Check> checks;

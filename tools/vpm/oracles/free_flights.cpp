@@ -152,7 +152,7 @@ void check_flights(std::vector<Check>& checks, const OracleCase& c, const Flight
   for (const StrategyInfo& info : distance_strategies()) {
     const bool homogeneous = path.medium.homogeneous();
     if (!homogeneous && (!info.heterogeneous || !info.unbiased)) continue;
-    if (!info.positive) continue;  // nothing tells beforehand how many flights its weights need
+    if (!info.positive) continue;  // nothing shows beforehand how many flights its weights need
     const auto strategy = make_distance_strategy(careful_settings(info.name));
     const std::string name = std::string(info.name) + ": ";
     const bool analog = homogeneous || info.bounded_weight;

@@ -65,7 +65,7 @@ void check_list(std::vector<Check>& checks, const OracleCase& c, const char* fie
     checks.push_back(check_probability(fmt::format("{}[{}]", field, i), found[i], exact[i]));
 }
 
-/// What photons tell.
+/// What photons find.
 void check_photons(std::vector<Check>& checks, const OracleCase& c, const Slab& slab, const Effort& effort) {
   const auto strategy = make_distance_strategy({});
   const uint64_t seed = effort.seed_of(c.place());

@@ -79,9 +79,9 @@ Json commands_again(const Json& report) {
   };
   return {{{"does", "renders the same picture again, on any number of threads"}, {"command", render(image, seed)}},
           {{"does", "renders it with other random numbers"}, {"command", render(other, seed + 1)}},
-          {{"does", "tells how far the two are apart"},
+          {{"does", "prints how far the two are apart"},
            {"command", fmt::format("vpm error {} {}", quoted(image), quoted(other))}},
-          {{"does", "tells what the scene holds and what a render of it runs"},
+          {{"does", "lists what the scene holds and what a render of it runs"},
            {"command", fmt::format("vpm info {}{}", scene, options)}}};
 }
 

@@ -1,4 +1,4 @@
-// The page of a render: report, settings and pictures as data, in its template; what a reader is told of the settings:
+// The page of a render: report, settings and pictures as data, in its template; what the settings mean:
 // what each is, and commands that render it again.
 #pragma once
 

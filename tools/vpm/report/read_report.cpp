@@ -85,7 +85,7 @@ void check_same(const fs::path& picture, const ExrChannels& channels, const std:
                 const std::string& reported) {
   const auto found = channels.metadata.find(name);
   if (found == channels.metadata.end())
-    refuse(picture, fmt::format("does not tell its {}: it is no picture of vpm render", name));
+    refuse(picture, fmt::format("does not state its {}: it is no picture of vpm render", name));
   if (found->second != reported)
     refuse(picture, fmt::format("is of another render than its report: {} is {} in the picture and {} in the report",
                                 name, found->second, reported));

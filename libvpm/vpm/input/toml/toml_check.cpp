@@ -1,7 +1,7 @@
 // A look at a scene file's text before toml++ gets it.
 //
 // toml++ limits how deep values nest, but not the parts of a key: each is a table in the last one, and tables are taken
-// apart by recursion, for which the stack may not suffice. And of letters that only strings may hold it does not tell
+// apart by recursion, for which the stack may not suffice. And of letters that only strings may hold it does not say
 // what to do about them.
 #include <algorithm>
 #include <string_view>

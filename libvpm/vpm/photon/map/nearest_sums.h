@@ -3,8 +3,8 @@
 // then the moments of what is nearer.
 //
 // Neighbouring queries reach almost equally far, so that the last reach is the first guess. It has no part in the
-// result: the second step walks through the tree anew, because the first takes those nodes as a whole that the guess
-// tells, and sums would be rounded differently from guess to guess.
+// result: the second step walks through the tree anew, because the first takes as a whole the nodes within the
+// guess, and sums would be rounded differently from guess to guess.
 #pragma once
 
 #include <algorithm>

@@ -7,7 +7,7 @@ const kDashes = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
 
 const cssColour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-/** How method `i` looks everywhere: no two of 28 alike, and no two neighbours told apart by colour alone. */
+/** How method `i` looks everywhere: no two of 28 alike, and no two neighbours differ in colour alone. */
 function seriesStyle(i) {
   const round = Math.floor(i / kColours);
   return {
@@ -173,7 +173,7 @@ function labelledDigits(range, length, room) {
   const fits = digits =>
       multiplesIn(range, digits).every((x, i, all) => i === 0 || pixels * Math.log10(x / all[i - 1]) >= room);
   const finest = kLabelled.findIndex(fits);
-  const telling = kLabelled.findLastIndex(digits => multiplesIn(range, digits).length > 1);  // one label tells no scale
+  const telling = kLabelled.findLastIndex(digits => multiplesIn(range, digits).length > 1);  // one label is no scale
   return kLabelled[Math.max(0, Math.min(finest, telling))];
 }
 

@@ -46,7 +46,7 @@ const kUnknown = {
 };
 
 /**
- * What errors can be: of a method at a budget. Some may be 0: of these an interval that reaches 0 tells an upper bound
+ * What errors can be: of a method at a budget. Some may be 0: of these an interval that reaches 0 is an upper bound
  * only.
  */
 const kMetrics = [

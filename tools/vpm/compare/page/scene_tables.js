@@ -95,7 +95,7 @@ function countersTable(scene, b) {
         'look-ups per photon', 'look-ups of density by photons, per photon emitted',
         row => per(row, 'photon_lookups', 'photons')),
     numberColumn(
-        'error × look-ups', 'relative MSE times look-ups of density: small where each look-up tells much',
+        'error × look-ups', 'relative MSE times look-ups of density: small where each look-up finds much',
         row => positive(row.relative_mse.value * meanOf(row, 'lookups'))),
     numberColumn('stored per emitted', 'photons in all maps per photon emitted', row => per(row, 'stored', 'photons')),
     numberColumn('searches', 'of photon maps, mean over repetitions', row => meanOf(row, 'searches')),
@@ -181,11 +181,11 @@ function aboutTable(caption, entries) {
     word('name', s => s.name), word('what it is', s => s.summary), word('how it fails', s => s.failure),
     word('source, in papers/references.bib', s => s.source)
   ];
-  const tell = (flag, title, yes, no) => {
+  const fact = (flag, title, yes, no) => {
     if (entries.some(s => s[flag] !== undefined)) columns.push(word(title, s => said(s[flag], yes, no)));
   };
-  tell('unbiased', 'bias', 'none', 'biased');
-  tell('bounded_weight', 'weights', 'bounded', 'without bound');
-  tell('heterogeneous', 'grids', 'yes', 'refused');
+  fact('unbiased', 'bias', 'none', 'biased');
+  fact('bounded_weight', 'weights', 'bounded', 'without bound');
+  fact('heterogeneous', 'grids', 'yes', 'refused');
   return sortableTable(caption, columns, entries);
 }
