@@ -19,40 +19,38 @@ namespace {
 
 Vec3 random_place(Rng& rng) { return 2.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()); }
 
-/// kBlock numbers.
-struct NumberLeaf : LeafPlaces {
-  using Record = uint32_t;
+/// Photons know their numbers by their powers.
+MergePhoton numbered(const Vec3& point, uint32_t number) {
+  return {.point = point, .power = Rgb(static_cast<float>(number))};
+}
+uint32_t number_of(const MergePhoton& photon) { return static_cast<uint32_t>(photon.power.r); }
 
-  void set(size_t i, uint32_t number) { numbers[i] = number; }
-  uint32_t operator[](size_t i) const { return numbers[i]; }
-
-  uint32_t numbers[kBlock];
-};
-
-TEST(VertexMap, FindsWhatASearchThroughAllFinds) {
+TEST(MergeMap, FindsWhatASearchThroughAllFinds) {
   constexpr float kRadius = 0.15f;
   for (const int count : {0, 1, 17, 3000}) {
     Rng rng(1, rng_stream(RngUse::test, 1), static_cast<uint64_t>(count));
-    std::vector<PlacedRecord<uint32_t>> vertices;
-    for (int i = 0; i < count; ++i) vertices.push_back({random_place(rng), static_cast<uint32_t>(i)});
-    const VertexMap<NumberLeaf> map(vertices, 1.5f * kRadius);
+    std::vector<MergePhoton> photons;
+    for (int i = 0; i < count; ++i) photons.push_back(numbered(random_place(rng), static_cast<uint32_t>(i)));
+    const MergeMap map(photons, 1.5f * kRadius);
     for (int query = 0; query < 50; ++query) {
       const Vec3 point = random_place(rng);
       const Ray ray{point, uniform_sphere(rng.uniform2())};
       const Interval interval{0.2f, 1.1f};
       std::set<uint32_t> near, beside, near_found, beside_found;
-      for (uint32_t i = 0; i < vertices.size(); ++i) {
-        const Vec3 offset = vertices[i].point - point;
+      for (uint32_t i = 0; i < photons.size(); ++i) {
+        const Vec3 offset = photons[i].point - point;
         const float t = glm::dot(offset, ray.direction), square = glm::dot(offset, offset);
         if (square < kRadius * kRadius) near.insert(i);
         if (t >= interval.t0 && t < interval.t1 && square - t * t < kRadius * kRadius) beside.insert(i);
       }
-      map.visit_near(point, kRadius, [&](uint32_t i, float) { EXPECT_TRUE(near_found.insert(i).second); });
+      map.visit_near(point, kRadius, [&](const MergePhoton& photon, float) {
+        EXPECT_TRUE(near_found.insert(number_of(photon)).second);
+      });
       map.visit_leaves_near_ray(ray, interval, kRadius, [&](const auto& leaf, const auto& found) {
         for (size_t i = 0; i < kBlock; ++i) {
           if (found.distances2[i] >= kRadius * kRadius) continue;
-          EXPECT_TRUE(beside_found.insert(leaf[i]).second);
-          EXPECT_NEAR(found.places[i], glm::dot(vertices[leaf[i]].point - point, ray.direction), 1e-6f);
+          EXPECT_TRUE(beside_found.insert(number_of(leaf[i])).second);
+          EXPECT_NEAR(found.places[i], glm::dot(leaf.point(i) - point, ray.direction), 1e-6f);
         }
       });
       EXPECT_EQ(near_found, near);
@@ -61,7 +59,7 @@ TEST(VertexMap, FindsWhatASearchThroughAllFinds) {
   }
 }
 
-TEST(VertexMap, OfALeafLeavesOutNothingNearABundle) {
+TEST(MergeMap, OfALeafLeavesOutNothingNearABundle) {
   constexpr float kRadius = 0.05f, kFarthest = 2.0f;
   Rng rng(1, rng_stream(RngUse::test, 2), 0);
   const Vec3 apex(0.1f, -0.2f, 0.3f);
@@ -71,14 +69,10 @@ TEST(VertexMap, OfALeafLeavesOutNothingNearABundle) {
     std::array<Vec3, 4> directions;
     for (Vec3& direction : directions) direction = glm::normalize(middle + 0.1f * (random_place(rng) - 1.0f));
     const RayBundle bundle(apex, directions, kFarthest + kRadius);
-    NumberLeaf leaf;
-    std::fill_n(leaf.x, 3 * kBlock, kInfinity);
-    for (size_t i = 0; i + 1 < kBlock; ++i) {
-      const Vec3 place = apex + kFarthest * rng.uniform() * (middle + 0.3f * (random_place(rng) - 1.0f));
-      leaf.x[i] = place.x;
-      leaf.y[i] = place.y;
-      leaf.z[i] = place.z;
-    }
+    PhotonLeaf leaf;
+    leaf.set(kBlock - 1, {.point = Vec3(kInfinity)});
+    for (size_t i = 0; i + 1 < kBlock; ++i)
+      leaf.set(i, {.point = apex + kFarthest * rng.uniform() * (middle + 0.3f * (random_place(rng) - 1.0f))});
     uint32_t numbers[kBlock];
     const uint32_t count = find_near(leaf, bundle, kRadius, numbers);
     const std::set<uint32_t> found(numbers, numbers + count);
@@ -86,7 +80,7 @@ TEST(VertexMap, OfALeafLeavesOutNothingNearABundle) {
     found_all += count;
     for (uint32_t i = 0; i + 1 < kBlock; ++i)
       for (const Vec3& direction : directions) {
-        const Vec3 from = Vec3(leaf.x[i], leaf.y[i], leaf.z[i]) - apex;
+        const Vec3 from = leaf.point(i) - apex;
         const float t = glm::dot(from, direction);
         if (t < 0.0f || t > kFarthest || glm::length(from - t * direction) >= kRadius) continue;
         ++near_rays;
@@ -245,7 +239,7 @@ TEST(SharesOfPoints, AreNumbersWhereAPixelDrawsNoRay) {
   beside.colliding = 0.5f * one;
   const SharesOfPoints<false> shares(counts, 1.0f);
   EXPECT_EQ(shares.of(beside)[0], 1.0f / 1.5f);
-  RaySegment segment;
+  MergeSegment segment;
   segment.adjacent = std::numeric_limits<double>::infinity();
   beside.splats = 4.0f * rays_of(segment, counts.points_2d).splats;
   const float beside_light_tracing = shares.of(beside)[0];

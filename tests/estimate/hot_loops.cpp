@@ -29,12 +29,12 @@ using Crossed = CrossingLight<true, HenyeyGreenstein, KernelProfile<KernelKind::
   light.add(rays, at, sums);
 }
 
-[[gnu::flatten]] void hot_surfaces(const SurfacePhotonLeaf& leaf, const Vec3& place, const Arrives& arrives,
-                                   float radius, AroundPlace& found) {
+[[gnu::flatten]] void hot_surfaces(const PhotonLeaf& leaf, const Vec3& place, const Arrives& arrives, float radius,
+                                   AroundPlace& found) {
   found = around(leaf, place, arrives, radius);
 }
 
-[[gnu::flatten]] uint32_t hot_find_near(const LeafPlaces& leaf, const RayBundle& bundle, float radius,
+[[gnu::flatten]] uint32_t hot_find_near(const PhotonLeaf& leaf, const RayBundle& bundle, float radius,
                                         uint32_t* numbers) {
   return find_near(leaf, bundle, radius, numbers);
 }

@@ -14,19 +14,6 @@
 
 namespace vpm {
 
-/// A part of a ray in a medium that scatters, along which light sub-paths are merged. The ray comes straight from the
-/// camera, or over mirrors and glass alone.
-struct RaySegment {
-  Ray ray;
-  Interval interval;  // the part, m from the ray's origin
-  MediumId medium = kVacuum;
-  Rgb passed{1.0f};       // the transmittance from the last vertex to the ray's origin
-  float before = 0.0f;    // from that vertex to there, m
-  double adjacent = 0.0;  // Departure::adjacent over Departure::forward of the vertex
-  Rgb throughput{1.0f};   // of what is found
-  size_t number = 0;      // of the ray among those that are followed together
-};
-
 class EyeSegment;
 
 /// Buffers, one set for each thread. They outlive rays, so that rays allocate nothing.
@@ -34,11 +21,10 @@ struct EyeScratch {
   DensityIntegralsAlong integrals;           // of the last segment that asked for them
   const EyeSegment* integrals_of = nullptr;  // that segment
   Marcher marcher;
-  Neighbours neighbours;             // of the last gather by count
-  std::vector<Track> tracks;         // of the last flight
-  PhotonBeamMap::Selection beams;    // near the last bundle of rays
-  std::vector<uint32_t> leaves;      // of a map of photons, likewise
-  std::vector<RaySegment> segments;  // of the last rays that were followed together
+  Neighbours neighbours;           // of the last gather by count
+  std::vector<Track> tracks;       // of the last flight
+  PhotonBeamMap::Selection beams;  // near the last bundle of rays
+  std::vector<uint32_t> leaves;    // of a map of photons, likewise
 };
 
 struct EyeWork {

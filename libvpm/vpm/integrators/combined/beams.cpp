@@ -68,7 +68,7 @@ uint32_t set_crossings(const CrossedRay& crossed, const PhaseFunction& phase, co
 
 }  // namespace
 
-Merged merge_beams(const CombinedContext& context, const RaySegment& segment, EyeWork& work) {
+Merged merge_beams(const CombinedContext& context, const MergeSegment& segment, EyeWork& work) {
   const LightBeams& beams = context.light.beams(segment.medium);
   if (beams.map.size() == 0) return {};
   const float radius = context.kernels.beams;
@@ -151,7 +151,7 @@ void merge_block(const CombinedContext& context, const RayBlock& block, EyeWork&
 
 }  // namespace
 
-void merge_beams(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
+void merge_beams(const CombinedContext& context, const Vec3& apex, std::span<const MergeSegment> bundle, EyeWork& work,
                  std::span<Merged> merged) {
   constexpr float kMostRadii = 32.0f;
   const LightBeams& beams = context.light.beams(bundle.front().medium);

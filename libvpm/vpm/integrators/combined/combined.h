@@ -8,6 +8,7 @@
 
 #include "vpm/estimate/eye_work.h"
 #include "vpm/integrators/combined/light_sub_paths.h"
+#include "vpm/integrators/combined/merge_map.h"
 #include "vpm/photon/map/photon_beam_map.h"
 
 namespace vpm {
@@ -36,8 +37,8 @@ class SortedLight {
   uint64_t connectable_paths() const { return paths_.connectable; }
   const LightBeams& beams(MediumId medium) const { return beams_[medium]; }
   /// Photons on surfaces, but those straight from lights that are sampled, and in a medium.
-  const VertexMap<SurfacePhotonLeaf>& on_surfaces() const { return on_surfaces_; }
-  const VertexMap<MediumPhotonLeaf>& in_medium(MediumId medium) const { return in_media_[medium]; }
+  const MergeMap& on_surfaces() const { return on_surfaces_; }
+  const MergeMap& in_medium(MediumId medium) const { return in_media_[medium]; }
   /// behind_scale() in a medium.
   double scale_in(MediumId medium) const { return scales_[medium]; }
   size_t beam_count() const;
@@ -47,10 +48,10 @@ class SortedLight {
 
  private:
   LightSubPaths paths_;
-  VertexMap<SurfacePhotonLeaf> on_surfaces_;
-  std::vector<VertexMap<MediumPhotonLeaf>> in_media_;  // by medium
-  std::vector<double> scales_;                         // likewise
-  std::vector<LightBeams> beams_;                      // likewise
+  MergeMap on_surfaces_;
+  std::vector<MergeMap> in_media_;  // by medium
+  std::vector<double> scales_;      // likewise
+  std::vector<LightBeams> beams_;   // likewise
 };
 
 /// What eye sub-paths read. Immutable while they run.

@@ -12,7 +12,7 @@
 namespace vpm {
 
 EyeSubPath::EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
-                       std::vector<RaySegment>* left_out, size_t number)
+                       std::vector<MergeSegment>* left_out, size_t number)
     : c_(context), work_(work), parts_(parts), left_out_(left_out), number_(number) {
   at_.state = {ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)};
   at_.from = depart_from_camera(context.counts, ray, density_of(ray));
@@ -208,14 +208,14 @@ void EyeSubPath::add_merged(Technique technique, const Rgb& found, const KernelP
 void EyeSubPath::merge_along_ray(const Along& along, const Interval& interval) {
   const Departure& from = at_.from;
   assert(from.behind == 0.0);  // nothing but the camera can be connected to, and not over mirrors or glass
-  const RaySegment segment{along.ray,
-                           interval,
-                           along.medium,
-                           along.passed,
-                           glm::distance(from.point, along.ray.origin),
-                           from.adjacent > 0.0 ? from.adjacent / from.forward : 0.0,
-                           asked(),
-                           number_};
+  const MergeSegment segment{along.ray,
+                             interval,
+                             along.medium,
+                             along.passed,
+                             glm::distance(from.point, along.ray.origin),
+                             from.adjacent > 0.0 ? from.adjacent / from.forward : 0.0,
+                             asked(),
+                             number_};
   if (left_out_ && from.camera && c_.scene.media[along.medium].homogeneous()) return left_out_->push_back(segment);
   for (const Technique technique : kRayTechniques) {
     const Merged merged = merge_along(c_, technique, segment, work_);
@@ -224,12 +224,12 @@ void EyeSubPath::merge_along_ray(const Along& along, const Interval& interval) {
   }
 }
 
-Merged merge_along(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work) {
+Merged merge_along(const CombinedContext& context, Technique technique, const MergeSegment& segment, EyeWork& work) {
   return technique == Technique::points_2d ? merge_points(context, segment, work) : merge_beams(context, segment, work);
 }
 
 void merge_along(const CombinedContext& context, Technique technique, const Vec3& apex,
-                 std::span<const RaySegment> bundle, EyeWork& work, std::span<Merged> merged) {
+                 std::span<const MergeSegment> bundle, EyeWork& work, std::span<Merged> merged) {
   if (technique == Technique::points_2d)
     merge_points(context, apex, bundle, work, merged);
   else
@@ -239,7 +239,7 @@ void merge_along(const CombinedContext& context, Technique technique, const Vec3
 namespace {
 
 /// Merges along segments that are in one medium.
-void merge_segments(const CombinedContext& context, std::span<const RaySegment> segments, std::span<EyeRay> rays,
+void merge_segments(const CombinedContext& context, std::span<const MergeSegment> segments, std::span<EyeRay> rays,
                     TechniqueParts* parts) {
   for (const Technique technique : kRayTechniques) {
     std::array<Merged, kEyeRays> merged{};
@@ -260,15 +260,15 @@ KernelEstimate combined_radiance(const CombinedContext& context, const Ray& came
 }
 
 void combined_radiance(const CombinedContext& context, std::span<EyeRay> rays, TechniqueParts* parts) {
-  std::vector<RaySegment>& left_out = rays.front().work.scratch.segments;
+  thread_local std::vector<MergeSegment> left_out;  // so that rays allocate nothing
   left_out.clear();
   for (size_t i = 0; i < rays.size(); ++i)
     rays[i].radiance =
         EyeSubPath(context, rays[i].ray, rays[i].work, parts ? &parts[i] : nullptr, &left_out, i).follow();
-  std::sort(left_out.begin(), left_out.end(), [](const RaySegment& a, const RaySegment& b) {
+  std::sort(left_out.begin(), left_out.end(), [](const MergeSegment& a, const MergeSegment& b) {
     return std::tie(a.medium, a.number, a.before) < std::tie(b.medium, b.number, b.before);
   });
-  const std::span<const RaySegment> all(left_out);
+  const std::span<const MergeSegment> all(left_out);
   for (size_t first = 0, next = 0; first < all.size(); first = next) {
     while (next < all.size() && next - first < kEyeRays && all[next].medium == all[first].medium) ++next;
     merge_segments(context, all.subspan(first, next - first), rays, parts);

@@ -12,12 +12,14 @@
 
 namespace vpm {
 
+struct MergeSegment;
+
 class EyeSubPath {
  public:
   /// `parts` may be null. What photons and beams bring to the camera's ray in homogeneous media before anything turns
   /// it is left out: its segments are added to `left_out`, with `number`; unless that is null.
   EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
-             std::vector<RaySegment>* left_out = nullptr, size_t number = 0);
+             std::vector<MergeSegment>* left_out = nullptr, size_t number = 0);
 
   KernelEstimate follow();
 
@@ -100,7 +102,7 @@ class EyeSubPath {
   const CombinedContext& c_;
   EyeWork& work_;
   TechniqueParts* parts_;
-  std::vector<RaySegment>* left_out_;
+  std::vector<MergeSegment>* left_out_;
   size_t number_;
   Branch at_;
   std::array<Branch, kMostWaiting> branches_;  // the first `waiting_`

@@ -105,9 +105,8 @@ class LightSubPath {
 
   void keep_on_surface(const Arrival& at) {
     if (c_.counts.surfaces == 0.0 || at.sums.straight) return;
-    const Vec3& point = at.vertex.point;
     const BehindMerge behind = behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, true).surface);
-    out_.on_surfaces.push_back({point, {point, at.vertex.travel, state_.throughput, behind}});
+    out_.on_surfaces.push_back({at.vertex.point, at.vertex.travel, state_.throughput, behind});
   }
 
   void keep_collided(const Arrival& at) {
@@ -127,7 +126,7 @@ class LightSubPath {
     const Junction even{Junction::Kind::medium, Vec3(0.0f), c_.scene.media[medium].sigma_t};
     const SubPathSums sums = arrive(c_.counts, from_, leg, even, point);
     out_.photons[medium].push_back(
-        {point, {from_.direction, power, passing(even.sigma_t, leg), behind_merge(c_.counts, sums)}});
+        {point, from_.direction, power, behind_merge(c_.counts, sums), passing(even.sigma_t, leg)});
   }
 
   /// Keeps the vertex, and draws how the sub-path goes on.

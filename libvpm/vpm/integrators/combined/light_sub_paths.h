@@ -36,10 +36,10 @@ struct Splat {
 };
 
 struct LightSubPaths {
-  std::vector<LightVertex> vertices;                             // of the sub-paths that may be connected to
-  uint64_t connectable = 0;                                      // how many these are
-  std::vector<PlacedRecord<SurfacePhoton>> on_surfaces;          // but those straight from lights that are sampled
-  std::vector<std::vector<PlacedRecord<MediumPhoton>>> photons;  // by medium
+  std::vector<LightVertex> vertices;              // of the sub-paths that may be connected to
+  uint64_t connectable = 0;                       // how many these are
+  std::vector<MergePhoton> on_surfaces;           // but those straight from lights that are sampled
+  std::vector<std::vector<MergePhoton>> photons;  // by medium
   LightFlights flights;
   std::vector<Splat> splats;
   Ledger ledger;  // emitted, counts of events, look-ups

@@ -101,14 +101,14 @@ auto with_crossing_light(const CombinedContext& context, const Medium& medium, U
 }
 
 /// What all sums along a segment are times.
-inline Rgb factor_of(const CombinedContext& context, const RaySegment& segment) {
+inline Rgb factor_of(const CombinedContext& context, const MergeSegment& segment) {
   return segment.throughput * context.scene.media[segment.medium].sigma_s *
          kernel_norm<1>(context.kernels.volume_kernel, context.kernels.beams);
 }
 
 /// Photons and rays, a lane for each pair. Lanes of density 0 add nothing.
 struct PhotonsBeside {
-  FloatsRgb power{};  // MediumPhoton's
+  FloatsRgb power{};  // MergePhoton's
   Floats passing{};   // likewise, and the next two
   Floats adjacent{}, further{};
   Floats sine{};                        // PhotonsBesideRays
@@ -171,7 +171,7 @@ auto with_photon_light(const CombinedContext& context, const Medium& medium, Use
 }
 
 /// What all sums along a segment are times.
-inline Rgb factor_of_photons(const CombinedContext& context, const RaySegment& segment) {
+inline Rgb factor_of_photons(const CombinedContext& context, const MergeSegment& segment) {
   return segment.throughput * context.scene.media[segment.medium].albedo() *
          (kernel_norm<2>(context.kernels.volume_kernel, context.kernels.points_2d) /
           static_cast<float>(context.light_paths));

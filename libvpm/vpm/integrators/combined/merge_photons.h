@@ -1,21 +1,21 @@
-// Photons in media and on surfaces, for merges, and kBlock of them side by side; those of a leaf around a place on a
-// surface.
+// Photons for merges, and kBlock of them side by side; those of a leaf around a place on a surface, or near rays.
 #pragma once
 
 #include "vpm/base/floats.h"
 #include "vpm/estimate/surface_estimate.h"
 #include "vpm/integrators/combined/mis_weights.h"
-#include "vpm/integrators/combined/vertex_map.h"
+#include "vpm/photon/map/ray_bundle.h"
 
 namespace vpm {
 
-/// A photon in a medium: one that collided or, where a grid is thin, flew past (thin_places.h).
-struct MediumPhoton {
-  Vec3 travel{0.0f};  // unit
-  Rgb power{0.0f};    // W over the density relative to the medium's largest, see stored_power()
-  // As they would be where the density is 1:
-  double passing = 0.0;  // of the leg that led there, m
-  BehindMerge behind;    // in maps times behind_scale()
+/// A photon on a surface; or in a medium: one that collided or, where a grid is thin, flew past (thin_places.h).
+struct MergePhoton {
+  Vec3 point{0.0f};      // m
+  Vec3 travel{0.0f};     // unit
+  Rgb power{0.0f};       // W; in a medium over the density relative to its largest, see stored_power()
+  BehindMerge behind{};  // on a surface over MergeTerms::surface; in a medium as it would be where the density is 1, in
+                         // maps times behind_scale()
+  double passing = 0.0;  // in a medium: of the leg that led there, m, likewise
 };
 
 /// Makes BehindMerge a number without a unit, by the density of points-2d in a medium of that extinction at density 1,
@@ -24,62 +24,35 @@ inline double behind_scale(const TechniqueCounts& counts, double sigma_t) {
   return counts.points_2d > 0.0 && sigma_t > 0.0 ? counts.weigh(sigma_t / counts.points_2d) : 1.0;
 }
 
-/// Each member of kBlock photons in a row of its own, so that loops over rows are vector loops.
-struct alignas(64) MediumPhotonLeaf : LeafPlaces {
-  using Record = MediumPhoton;
-
-  void set(size_t i, const MediumPhoton& photon) {
-    travel_x[i] = photon.travel.x;
-    travel_y[i] = photon.travel.y;
-    travel_z[i] = photon.travel.z;
-    power_r[i] = photon.power.r;
-    power_g[i] = photon.power.g;
-    power_b[i] = photon.power.b;
+/// kBlock photons, each member in a row of its own, so that loops over rows are vector loops. Photons that it lacks are
+/// infinitely far.
+struct alignas(64) PhotonLeaf {
+  void set(size_t i, const MergePhoton& photon) {
+    set(i, photon.point, x, y, z);
+    set(i, photon.travel, travel_x, travel_y, travel_z);
+    set(i, photon.power, power_r, power_g, power_b);
     passing[i] = finite_density(photon.passing);
     adjacent[i] = finite_density(photon.behind.adjacent);
     further[i] = finite_density(photon.behind.further);
   }
-  MediumPhoton operator[](size_t i) const { return {travel(i), power(i), passing[i], {adjacent[i], further[i]}}; }
+  MergePhoton operator[](size_t i) const {
+    return {point(i), travel(i), power(i), {adjacent[i], further[i]}, passing[i]};
+  }
+  Vec3 point(size_t i) const { return {x[i], y[i], z[i]}; }
   Vec3 travel(size_t i) const { return {travel_x[i], travel_y[i], travel_z[i]}; }
   Rgb power(size_t i) const { return {power_r[i], power_g[i], power_b[i]}; }
 
+  float x[kBlock], y[kBlock], z[kBlock];
   float travel_x[kBlock], travel_y[kBlock], travel_z[kBlock];
   float power_r[kBlock], power_g[kBlock], power_b[kBlock];
   float passing[kBlock], adjacent[kBlock], further[kBlock];
-};
 
-/// A photon on a surface.
-struct SurfacePhoton {
-  Vec3 point{0.0f};    // m
-  Vec3 travel{0.0f};   // unit
-  Rgb power{0.0f};     // W
-  BehindMerge behind;  // over the density of merges on surfaces, MergeTerms::surface
-};
-
-/// Each member of kBlock photons in a row of its own, so that loops over rows are vector loops.
-struct alignas(64) SurfacePhotonLeaf : LeafPlaces {
-  using Record = SurfacePhoton;
-
-  void set(size_t i, const SurfacePhoton& photon) {
-    travel_x[i] = photon.travel.x;
-    travel_y[i] = photon.travel.y;
-    travel_z[i] = photon.travel.z;
-    power_r[i] = photon.power.r;
-    power_g[i] = photon.power.g;
-    power_b[i] = photon.power.b;
-    adjacent[i] = finite_density(photon.behind.adjacent);
-    further[i] = finite_density(photon.behind.further);
+ private:
+  static void set(size_t i, const Vec3& value, float* x, float* y, float* z) {
+    x[i] = value.x;
+    y[i] = value.y;
+    z[i] = value.z;
   }
-  SurfacePhoton operator[](size_t i) const {
-    return {{x[i], y[i], z[i]},
-            {travel_x[i], travel_y[i], travel_z[i]},
-            {power_r[i], power_g[i], power_b[i]},
-            {adjacent[i], further[i]}};
-  }
-
-  float travel_x[kBlock], travel_y[kBlock], travel_z[kBlock];
-  float power_r[kBlock], power_g[kBlock], power_b[kBlock];
-  float adjacent[kBlock], further[kBlock];
 };
 
 /// The photons of a leaf around a place on a surface.
@@ -88,7 +61,7 @@ struct AroundPlace {
   Floats q;          // their squared distance over that of the radius
   Floats cosine;     // of their directions to the normal
 };
-inline AroundPlace around(const SurfacePhotonLeaf& leaf, const Vec3& place, const Arrives& arrives, float radius) {
+inline AroundPlace around(const PhotonLeaf& leaf, const Vec3& place, const Arrives& arrives, float radius) {
   const Floats3 offset = Floats3::of(leaf.x, leaf.y, leaf.z) - place;
   const Floats distance2 = dot(offset, offset), height = abs(dot(arrives.normal, offset));
   const Floats3 travel = Floats3::of(leaf.travel_x, leaf.travel_y, leaf.travel_z);
@@ -97,6 +70,17 @@ inline AroundPlace around(const SurfacePhotonLeaf& leaf, const Vec3& place, cons
   const Floats reached = select(near, distance2, 0.0f);
   return {near & (cosine > 0.0f) & (height <= arrives.thickness + kSlope * sqrt(reached)),
           reached * (1.0f / (radius * radius)), cosine};
+}
+
+/// Finds the photons of a leaf that may be nearer to rays of the bundle than the radius, m: their numbers, for which
+/// there is to be room for kBlock. Returns how many there are.
+inline uint32_t find_near(const PhotonLeaf& leaf, const RayBundle& bundle, float radius, uint32_t* numbers) {
+  const HalfSpaces& region = bundle.region();
+  const float reach = 1.0001f * radius;  // for rounding
+  const Floats3 places = Floats3::of(leaf.x, leaf.y, leaf.z) - bundle.apex();
+  LaneMask near = -1;
+  for (int k = 0; k < region.count(); ++k) near &= dot(region.normal(k), places) >= region.offset(k) - reach;
+  return store_numbers(0, bits_of(near), numbers);
 }
 
 }  // namespace vpm

@@ -19,7 +19,7 @@ struct CrossedBeams {
   Floats kept;       // Junction::kept
   Floats back;       // FlightTerms::back times the transmittance, summed over channels, and the phase function, 1/sr
   Floats adjacent;   // FlightTerms::adjacent times the squared distance from the last vertex
-  Floats splats;     // of the ray's start, RaySegment::adjacent, times the squared distance from there, over
+  Floats splats;     // of the ray's start, MergeSegment::adjacent, times the squared distance from there, over
                      // TechniqueCounts::short_beams
 };
 
@@ -62,7 +62,7 @@ struct PhotonsBesideRays {
   Floats density;            // of the medium at the place on the ray, > 0
   Floats kept;               // Junction::kept
   Floats colliding;          // extinction times transmittance to the eye over extinction, of means over channels
-  Floats splats;             // RaySegment::adjacent times the squared distance, over TechniqueCounts::points_2d
+  Floats splats;             // MergeSegment::adjacent times the squared distance, over TechniqueCounts::points_2d
 };
 
 /// The share of points-2d in what a photon brings to a ray that comes straight from the camera, or over mirrors and

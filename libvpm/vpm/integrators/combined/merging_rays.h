@@ -17,12 +17,12 @@ namespace vpm {
 
 /// Rays in lanes, as far as merges need them.
 struct MergingRays {
-  FloatsRgb passed{};  // RaySegment's
+  FloatsRgb passed{};  // MergeSegment's
   Floats before{};
-  Floats splats{};  // RaySegment::adjacent over `unit`, the density that a technique's shares are relative to
+  Floats splats{};  // MergeSegment::adjacent over `unit`, the density that a technique's shares are relative to
   Floats3 along;    // directions, unit
 
-  void set(size_t lane, const RaySegment& segment, double unit) {
+  void set(size_t lane, const MergeSegment& segment, double unit) {
     for (int c = 0; c < 3; ++c) passed[c].set(lane, segment.passed[c]);
     before.set(lane, segment.before);
     splats.set(lane, static_cast<float>(std::min(segment.adjacent / unit, 1e30)));
@@ -30,7 +30,7 @@ struct MergingRays {
   }
 };
 /// The same ray in all lanes.
-inline MergingRays rays_of(const RaySegment& segment, double unit) {
+inline MergingRays rays_of(const MergeSegment& segment, double unit) {
   MergingRays rays;
   for (size_t lane = 0; lane < kBlock; ++lane) rays.set(lane, segment, unit);
   return rays;
@@ -143,15 +143,15 @@ class MergedTotals {
 // --- Many rays
 
 using Directions = std::array<Vec3, kEyeRays>;
-inline std::span<const Vec3> directions_of(std::span<const RaySegment> bundle, Directions& directions) {
+inline std::span<const Vec3> directions_of(std::span<const MergeSegment> bundle, Directions& directions) {
   for (size_t i = 0; i < bundle.size(); ++i) directions[i] = bundle[i].ray.direction;
   return {directions.data(), bundle.size()};
 }
 
 /// The part of the segments that lies within the radius of the bounds, m from the apex; empty where there is none.
-inline Interval reach_of(std::span<const RaySegment> bundle, const Vec3& apex, const Box& bounds, float radius) {
+inline Interval reach_of(std::span<const MergeSegment> bundle, const Vec3& apex, const Box& bounds, float radius) {
   Interval reach{kInfinity, 0.0f};
-  for (const RaySegment& segment : bundle) {
+  for (const MergeSegment& segment : bundle) {
     const Interval near = clip(segment.ray, segment.interval, bounds, radius);
     if (near.empty()) continue;
     const float before = glm::distance(apex, segment.ray.origin);
@@ -162,14 +162,14 @@ inline Interval reach_of(std::span<const RaySegment> bundle, const Vec3& apex, c
 
 /// Up to kBlock rays of a bundle, as far as they lie within the radius of the bounds.
 struct RayBlock {
-  std::span<const RaySegment> segments;
+  std::span<const MergeSegment> segments;
   RayLanes lanes;
   MergingRays rays;
   Vec3 apex{0.0f};
   float radius = 0.0f;  // m
   Interval reach;       // m from the apex
 
-  RayBlock(std::span<const RaySegment> block, const Vec3& from, const Box& bounds, float within, double unit)
+  RayBlock(std::span<const MergeSegment> block, const Vec3& from, const Box& bounds, float within, double unit)
       : segments(block), apex(from), radius(within), reach(reach_of(block, from, bounds, within)) {
     for (size_t i = 0; i < block.size(); ++i) {
       lanes.set(i, block[i].ray, clip(block[i].ray, block[i].interval, bounds, within), from);
@@ -193,7 +193,7 @@ struct SearchedMap {
 /// Searches a map for a whole bundle, select(RayBundle), and merges block by block what was found, each(RayBlock, what
 /// its segments find). Returns false, and does nothing, where the bundle is too wide for that.
 template <class Select, class Each>
-bool merge_together(const SearchedMap& map, float free_path, const Vec3& apex, std::span<const RaySegment> bundle,
+bool merge_together(const SearchedMap& map, float free_path, const Vec3& apex, std::span<const MergeSegment> bundle,
                     std::span<Merged> merged, Select&& select, Each&& each) {
   const auto& [bounds, radius, most_radii, unit] = map;
   const Interval reach = reach_of(bundle, apex, bounds, radius);

@@ -8,14 +8,12 @@
 namespace vpm {
 namespace {
 
-using PhotonsInMedium = VertexMap<MediumPhotonLeaf>;
-
 // --- Many photons and one ray
 
 /// The medium at the places of a leaf's photons on the ray. Those that are not near have density 0. Returns how many
 /// are.
 uint32_t set_medium_beside(const Medium& medium, const DensityIntegralsAlong& integrals,
-                           const PhotonsInMedium::BesideRay& beside, float radius, PhotonsBeside& at) {
+                           const MergeMap::BesideRay& beside, float radius, PhotonsBeside& at) {
   uint32_t number = 0;
   for (size_t i = 0; i < kBlock; ++i) {
     if (!(beside.distances2[i] < radius * radius)) continue;
@@ -35,7 +33,7 @@ uint32_t set_medium_beside(const Medium& medium, const DensityIntegralsAlong& in
 }
 
 template <class PhaseFunction>
-void set_photons(const MediumPhotonLeaf& leaf, const PhaseFunction& phase, const Vec3& along, PhotonsBeside& at) {
+void set_photons(const PhotonLeaf& leaf, const PhaseFunction& phase, const Vec3& along, PhotonsBeside& at) {
   at.power = {lanes_of(leaf.power_r), lanes_of(leaf.power_g), lanes_of(leaf.power_b)};
   at.passing = lanes_of(leaf.passing);
   at.adjacent = lanes_of(leaf.adjacent);
@@ -51,7 +49,7 @@ void set_photons(const MediumPhotonLeaf& leaf, const PhaseFunction& phase, const
 /// How a photon lies to the rays of a block.
 struct BesideRays {
   LaneMask near;
-  Floats distance2, places;  // as PhotonsInMedium::BesideRay has them
+  Floats distance2, places;  // as MergeMap::BesideRay has them
 };
 BesideRays beside(const RayBlock& block, const Vec3& photon) {
   const RayLanes& rays = block.lanes;
@@ -63,7 +61,7 @@ BesideRays beside(const RayBlock& block, const Vec3& photon) {
 
 /// Photon number `p` of a leaf, and the rays of a block that it is near.
 template <class PhaseFunction>
-PhotonsBeside photon_beside(const MediumPhotonLeaf& leaf, size_t p, const RayBlock& block, const BesideRays& beside,
+PhotonsBeside photon_beside(const PhotonLeaf& leaf, size_t p, const RayBlock& block, const BesideRays& beside,
                             const PhaseFunction& phase) {
   const Floats3& along = block.lanes.along;
   const Vec3 travel = leaf.travel(p);
@@ -85,19 +83,19 @@ PhotonsBeside photon_beside(const MediumPhotonLeaf& leaf, size_t p, const RayBlo
 void merge_block_of_points(const CombinedContext& context, const RayBlock& block, EyeWork& work,
                            std::span<Merged> merged) {
   const MediumId medium = block.segments.front().medium;
-  const PhotonsInMedium& map = context.light.in_medium(medium);
+  const MergeMap& map = context.light.in_medium(medium);
   GatherCounters& counters = work.counters.gather;
   const RayBundle bundle = block.bundle();
   MergedTotals totals;
   const auto merge = [&](const auto& light) {
     for (const uint32_t number : work.scratch.leaves) {
-      const MediumPhotonLeaf& leaf = map.leaf(number);
+      const PhotonLeaf& leaf = map.leaf(number);
       uint32_t near[kBlock];
       const uint32_t found = find_near(leaf, bundle, block.radius, near);
       count(counters.visited, kBlock + found * merged.size());
       for (uint32_t i = 0; i < found; ++i) {
         const size_t p = near[i];
-        const BesideRays lies = beside(block, {leaf.x[p], leaf.y[p], leaf.z[p]});
+        const BesideRays lies = beside(block, leaf.point(p));
         const uint32_t used = lanes_in(lies.near);
         if (used == 0) continue;
         count(counters.used, used);
@@ -112,8 +110,8 @@ void merge_block_of_points(const CombinedContext& context, const RayBlock& block
 
 }  // namespace
 
-Merged merge_points(const CombinedContext& context, const RaySegment& segment, EyeWork& work) {
-  const PhotonsInMedium& map = context.light.in_medium(segment.medium);
+Merged merge_points(const CombinedContext& context, const MergeSegment& segment, EyeWork& work) {
+  const MergeMap& map = context.light.in_medium(segment.medium);
   if (context.counts.points_2d == 0.0 || map.size() == 0) return {};
   const Medium& medium = context.scene.media[segment.medium];
   const float radius = context.kernels.points_2d;
@@ -121,7 +119,7 @@ Merged merge_points(const CombinedContext& context, const RaySegment& segment, E
   GatherCounters& counters = work.counters.gather;
   MergedTotals totals;
   const auto merge = [&](const auto& light) {
-    const auto visit = [&](const MediumPhotonLeaf& leaf, const PhotonsInMedium::BesideRay& beside) {
+    const auto visit = [&](const PhotonLeaf& leaf, const MergeMap::BesideRay& beside) {
       PhotonsBeside at;
       count(counters.used, set_medium_beside(medium, work.scratch.integrals, beside, radius, at));
       set_photons(leaf, light.phase(), segment.ray.direction, at);
@@ -135,10 +133,10 @@ Merged merge_points(const CombinedContext& context, const RaySegment& segment, E
   return totals.of_all().times(factor_of_photons(context, segment));
 }
 
-void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
+void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const MergeSegment> bundle, EyeWork& work,
                   std::span<Merged> merged) {
   constexpr float kMostRadii = 8.0f;
-  const PhotonsInMedium& map = context.light.in_medium(bundle.front().medium);
+  const MergeMap& map = context.light.in_medium(bundle.front().medium);
   if (context.counts.points_2d == 0.0 || map.size() == 0) return;
   const float free_path = 1.0f / mean_channel(context.scene.media[bundle.front().medium].sigma_t);
   std::vector<uint32_t>& leaves = work.scratch.leaves;
@@ -159,7 +157,7 @@ void merge_points(const CombinedContext& context, const Vec3& apex, std::span<co
 // Photons in media around where an eye sub-path collides.
 void EyeSubPath::merge_points_3d(const Arrival& at) {
   const PathVertex& vertex = at.vertex;
-  const VertexMap<MediumPhotonLeaf>& map = c_.light.in_medium(vertex.medium);
+  const MergeMap& map = c_.light.in_medium(vertex.medium);
   if (!c_.counts.merges_points_3d(at_.only_specular) || map.size() == 0) return;
   const Medium& medium = c_.scene.media[vertex.medium];
   const float radius = c_.kernels.points_3d;
@@ -172,7 +170,7 @@ void EyeSubPath::merge_points_3d(const Arrival& at) {
   const BehindMerge eye = behind_merge(c_.counts, at.sums);
   count(work_.counters.volume_queries);
   count(work_.counters.gather.searches);
-  const auto merge = [&](const MediumPhoton& photon, float distance2) {
+  const auto merge = [&](const MergePhoton& photon, float distance2) {
     const float phase = phase_value(medium.phase, photon.travel, -vertex.travel);
     const MergeTerms merges = merges_in_medium(c_.counts, at.junction, photon.passing / vertex.density, at.leg,
                                                sine_between(photon.travel, vertex.travel), at_.only_specular);

@@ -8,6 +8,19 @@
 
 namespace vpm {
 
+/// A part of a ray in a medium that scatters, along which light sub-paths are merged. The ray comes straight from the
+/// camera, or over mirrors and glass alone.
+struct MergeSegment {
+  Ray ray;
+  Interval interval;  // the part, m from the ray's origin
+  MediumId medium = kVacuum;
+  Rgb passed{1.0f};       // the transmittance from the last vertex to the ray's origin
+  float before = 0.0f;    // from that vertex to there, m
+  double adjacent = 0.0;  // Departure::adjacent over Departure::forward of the vertex
+  Rgb throughput{1.0f};   // of what is found
+  size_t number = 0;      // of the ray among those that are followed together
+};
+
 /// What a technique finds along a segment, W/(m^2 sr): with its shares, and without.
 struct Merged {
   KernelEstimate light;
@@ -18,19 +31,19 @@ struct Merged {
 inline constexpr std::array kRayTechniques{Technique::points_2d, Technique::short_beams};
 
 /// One of these. The scratch of `work` has the density integrals along the segment, unless the medium is homogeneous.
-Merged merge_along(const CombinedContext& context, Technique technique, const RaySegment& segment, EyeWork& work);
+Merged merge_along(const CombinedContext& context, Technique technique, const MergeSegment& segment, EyeWork& work);
 
 /// The same for up to kEyeRays segments of rays from one point that lie side by side, in one homogeneous medium. What
 /// each finds is put into `merged` at its place.
 void merge_along(const CombinedContext& context, Technique technique, const Vec3& apex,
-                 std::span<const RaySegment> bundle, EyeWork& work, std::span<Merged> merged);
+                 std::span<const MergeSegment> bundle, EyeWork& work, std::span<Merged> merged);
 
 // By technique
-Merged merge_points(const CombinedContext& context, const RaySegment& segment, EyeWork& work);
-void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
+Merged merge_points(const CombinedContext& context, const MergeSegment& segment, EyeWork& work);
+void merge_points(const CombinedContext& context, const Vec3& apex, std::span<const MergeSegment> bundle, EyeWork& work,
                   std::span<Merged> merged);
-Merged merge_beams(const CombinedContext& context, const RaySegment& segment, EyeWork& work);
-void merge_beams(const CombinedContext& context, const Vec3& apex, std::span<const RaySegment> bundle, EyeWork& work,
+Merged merge_beams(const CombinedContext& context, const MergeSegment& segment, EyeWork& work);
+void merge_beams(const CombinedContext& context, const Vec3& apex, std::span<const MergeSegment> bundle, EyeWork& work,
                  std::span<Merged> merged);
 
 }  // namespace vpm

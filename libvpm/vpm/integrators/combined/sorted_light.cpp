@@ -25,9 +25,8 @@ SortedLight::SortedLight(const Scene& scene, const TechniqueCounts& counts, cons
   const float scale = 1.0f / static_cast<float>(paths_.ledger.emitted_count);
   for (MediumId m = 0; m < static_cast<MediumId>(scene.media.size()); ++m) {
     scales_.push_back(behind_scale(counts, mean_channel(scene.media[m].sigma_t)));
-    for (PlacedRecord<MediumPhoton>& photon : paths_.photons[m])
-      photon.record.behind = photon.record.behind.over(1.0 / scales_.back());
-    in_media_.push_back(VertexMap<MediumPhotonLeaf>(paths_.photons[m], reach));
+    for (MergePhoton& photon : paths_.photons[m]) photon.behind = photon.behind.over(1.0 / scales_.back());
+    in_media_.emplace_back(paths_.photons[m], reach);
     paths_.photons[m] = {};
   }
   beams_ = sorted_beams(paths_.flights, kernels.beams, scale);
@@ -41,13 +40,13 @@ size_t SortedLight::beam_count() const {
 
 size_t SortedLight::photons_in_media() const {
   size_t sum = 0;
-  for (const VertexMap<MediumPhotonLeaf>& map : in_media_) sum += map.size();
+  for (const MergeMap& map : in_media_) sum += map.size();
   return sum;
 }
 
 size_t SortedLight::memory_bytes() const {
   size_t bytes = on_surfaces_.memory_bytes();
-  for (const VertexMap<MediumPhotonLeaf>& map : in_media_) bytes += map.memory_bytes();
+  for (const MergeMap& map : in_media_) bytes += map.memory_bytes();
   for (const LightBeams& of_medium : beams_)
     bytes += of_medium.map.memory_bytes() + of_medium.flights.capacity() * sizeof(FlightTerms);
   return bytes;

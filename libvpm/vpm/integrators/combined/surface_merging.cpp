@@ -10,7 +10,7 @@
 namespace vpm {
 
 void EyeSubPath::merge_surface(const Arrival& at) {
-  const VertexMap<SurfacePhotonLeaf>& map = c_.light.on_surfaces();
+  const MergeMap& map = c_.light.on_surfaces();
   if (!c_.counts.merges_surfaces(at_.only_specular) || map.size() == 0) return;
   count(work_.counters.surface_queries);
   count(work_.counters.gather.searches);
@@ -24,7 +24,7 @@ void EyeSubPath::merge_surface(const Arrival& at) {
   const BehindMerge eye =
       behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, at_.only_specular).surface);
   const Rgb each = at_.state.throughput / static_cast<float>(c_.light_paths);
-  const auto merge = [&](const SurfacePhoton& photon, float distance2) {
+  const auto merge = [&](const MergePhoton& photon, float distance2) {
     const bool faces = arrives.from_both_sides || glm::dot(photon.travel, side) < 0.0f;
     if (!faces || !arrives.near_plane(photon.point - vertex.point)) return;
     const Scattered scattered = scattered_into(c_.scene, vertex, -photon.travel, SubPath::eye);
@@ -49,7 +49,7 @@ void EyeSubPath::merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& r
   const bool squares = c_.counts.heuristic == Heuristic::power;
   MergedTotals totals;
   const auto merge = [&](auto profile) {
-    return c_.light.on_surfaces().visit_leaves_near(vertex.point, [&](const SurfacePhotonLeaf& leaf) {
+    return c_.light.on_surfaces().visit_leaves_near(vertex.point, [&](const PhotonLeaf& leaf) {
       const AroundPlace near = around(leaf, vertex.point, arrives, radius);
       if (!any(near.arrived)) return;
       count(work_.counters.gather.used, lanes_in(near.arrived));

@@ -55,9 +55,10 @@ SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
 double share_along_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, size_t i) {
   const Junction& at = path.junctions[i];
   const double sigma_t = mean_channel(at.sigma_t);
-  MediumPhotonLeaf leaf;
-  leaf.set(0, {path.direction(i - 1), Rgb(1.0f), passing(at.sigma_t, path.leg(i - 1)),
-               behind_merge(counts, traced.light[i].sums).over(1.0 / behind_scale(counts, sigma_t))});
+  PhotonLeaf leaf;
+  leaf.set(0, {path.points[i], path.direction(i - 1), Rgb(1.0f),
+               behind_merge(counts, traced.light[i].sums).over(1.0 / behind_scale(counts, sigma_t)),
+               passing(at.sigma_t, path.leg(i - 1))});
   const Departure& eye = traced.eye_leaves[i + 1];
   const double to_eye = path.leg(i).distance;
   PhotonsBesideRays beside{};
