@@ -32,7 +32,7 @@ class SortedLight {
   SortedLight(const Scene& scene, const TechniqueCounts& counts, const MergeKernels& kernels, LightSubPaths paths);
 
   /// Those that may be connected to.
-  const std::vector<LightVertex>& vertices() const { return paths_.vertices; }
+  const std::vector<PathVertex>& vertices() const { return paths_.vertices; }
   /// Of how many sub-paths these are, with sub-paths that have none.
   uint64_t connectable_paths() const { return paths_.connectable; }
   const LightBeams& beams(MediumId medium) const { return beams_[medium]; }

@@ -19,11 +19,11 @@ void EyeSubPath::see_environment(const Rgb& passed) {
   }
 }
 
-void EyeSubPath::see_emitter(const PathVertex& vertex, const Leg& leg) {
-  const int light = c_.scene.shapes[vertex.hit.shape].light;
+void EyeSubPath::see_emitter(const PathVertex& at) {
+  const int light = c_.scene.shapes[at.hit.shape].light;
   if (light < 0) return;
-  const Rgb emitted = surface_radiance(c_.scene.lights[light], vertex.hit.normal, vertex.travel);
-  if (!is_black(emitted)) run_into(light, leg, vertex.hit.position, vertex.hit.normal, emitted);
+  const Rgb emitted = surface_radiance(c_.scene.lights[light], at.hit.normal, at.travel);
+  if (!is_black(emitted)) run_into(light, at.leg, at.hit.position, at.hit.normal, emitted);
 }
 
 void EyeSubPath::run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted) {
@@ -36,20 +36,19 @@ void EyeSubPath::run_into(int number, const Leg& leg, const Vec3& point, const V
                                             {point, -at_.state.ray.direction}, normal);
   const Junction at_light{
       .kind = is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, .normal = normal, .light = true};
-  const SubPathSums at_eye = arrive(c_.counts, start, leg, at_.from.from, at_.from.point);
-  const SubPathSums further = arrive(c_.counts, at_.from, leg, at_light, point);
-  add(Technique::connections, seen, shares_of_connection(c_.counts, start, at_eye, at_.from, further).run_into);
+  const Behind at_eye = techniques_behind(c_.counts, start, leg, at_.from.from, at_.from.point);
+  const Behind further = techniques_behind(c_.counts, at_.from, leg, at_light, point);
+  add(Technique::connections, seen, share_of_running_into(c_.counts, start, at_eye, at_.from, further));
 }
 
-void EyeSubPath::sample_light(const Arrival& at) {
+void EyeSubPath::sample_light(const PathVertex& at) {
   if (!c_.counts.light) return;
-  const PathVertex& vertex = at.vertex;
-  if (!vertex.on_surface) return sample_light(at, {vertex.point, vertex.medium});
-  sample_light(at, near_side(vertex.hit, vertex.travel, vertex.medium));
-  if (scatters_through(vertex.material)) sample_light(at, far_side(c_.scene, vertex.hit, vertex.travel, vertex.medium));
+  if (!at.on_surface) return sample_light(at, {at.point, at.medium});
+  sample_light(at, near_side(at.hit, at.travel, at.medium));
+  if (scatters_through(at.material)) sample_light(at, far_side(c_.scene, at.hit, at.travel, at.medium));
 }
 
-void EyeSubPath::sample_light(const Arrival& at, const Receiver& side) {
+void EyeSubPath::sample_light(const PathVertex& at, const Receiver& side) {
   if (!c_.counts.each_light) {
     const PickedLight picked = pick_light(c_.scene, work_.rng.uniform_double());
     return sample_light(at, side, picked.number, 1.0f / picked.probability);
@@ -58,12 +57,12 @@ void EyeSubPath::sample_light(const Arrival& at, const Receiver& side) {
     if (c_.scene.light_probability[i] > 0.0) sample_light(at, side, static_cast<int>(i), 1.0f);
 }
 
-void EyeSubPath::sample_light(const Arrival& at, const Receiver& side, int number, float weight) {
+void EyeSubPath::sample_light(const PathVertex& at, const Receiver& side, int number, float weight) {
   const Light& light = c_.scene.lights[number];
   count(work_.counters.shadow_rays);
   const std::optional<Incident> incident = sample_towards(light, side.point, work_.rng);
-  if (!incident || (at.vertex.on_surface && glm::dot(side.normal, incident->direction) <= 0.0f)) return;
-  const Scattered scattered = scattered_into(c_.scene, at.vertex, incident->direction, SubPath::eye);
+  if (!incident || (at.on_surface && glm::dot(side.normal, incident->direction) <= 0.0f)) return;
+  const Scattered scattered = scattered_into(c_.scene, at, incident->direction, SubPath::eye);
   if (is_black(scattered.value)) return;
   const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
   const Rgb passed = visibility(rays, {side.point, incident->direction}, incident->distance, number, side.medium);
@@ -73,16 +72,16 @@ void EyeSubPath::sample_light(const Arrival& at, const Receiver& side, int numbe
   const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
                                             {point, -incident->direction}, incident->normal);
   const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
-  const Departure eye = depart_into(at, {incident->direction, scattered.forward, scattered.reverse});
+  const Departure eye = depart_into(at, incident->direction, scattered.densities);
   const Junction at_light{.kind = start.from.kind, .normal = incident->normal, .light = true};
-  const SubPathSums at_eye = arrive(c_.counts, start, leg, at.junction, at.vertex.point);
-  const SubPathSums further = arrive(c_.counts, eye, leg, at_light, point);
+  const Behind at_eye = techniques_behind(c_.counts, start, leg, at, at.point);
+  const Behind further = techniques_behind(c_.counts, eye, leg, at_light, point);
   const Rgb found = at_.state.throughput * scattered.value * incident->irradiance * passed * weight;
-  add(Technique::connections, found, shares_of_connection(c_.counts, start, at_eye, eye, further).connected);
+  add(Technique::connections, found, share_of_connection(c_.counts, start, at_eye, eye, further));
 }
 
-void EyeSubPath::connect(const Arrival& at) {
-  const std::vector<LightVertex>& all = c_.light.vertices();
+void EyeSubPath::connect(const PathVertex& at) {
+  const std::vector<PathVertex>& all = c_.light.vertices();
   if (c_.counts.connections == 0.0 || all.empty()) return;
   const double of_path = static_cast<double>(all.size()) / static_cast<double>(c_.light.connectable_paths());
   const double number = c_.counts.connections * of_path;
@@ -93,32 +92,31 @@ void EyeSubPath::connect(const Arrival& at) {
   }
 }
 
-void EyeSubPath::connect_to(const Arrival& at, const LightVertex& light) {
-  const Vec3d offset = Vec3d(light.at.vertex.point) - Vec3d(at.vertex.point);
+void EyeSubPath::connect_to(const PathVertex& at, const PathVertex& light) {
+  const Vec3d offset = Vec3d(light.point) - Vec3d(at.point);
   const double distance = glm::length(offset);
   if (!(distance > 0.0)) return;
   const Vec3 direction(offset / distance);
-  const Scattered here = scattered_into(c_.scene, at.vertex, direction, SubPath::eye);
+  const Scattered here = scattered_into(c_.scene, at, direction, SubPath::eye);
   if (is_black(here.value)) return;
-  const Scattered there = scattered_into(c_.scene, light.at.vertex, -direction, SubPath::light);
+  const Scattered there = scattered_into(c_.scene, light, -direction, SubPath::light);
   if (is_black(there.value)) return;
   count(work_.counters.shadow_rays);
-  const Leaving from = leave(c_.scene, at.vertex, direction), to = leave(c_.scene, light.at.vertex, -direction);
-  const Vec3 way = to.origin - from.origin;
+  const PathState from = leave(c_.scene, at, direction), to = leave(c_.scene, light, -direction);
+  const Vec3 way = to.ray.origin - from.ray.origin;
   const float length = glm::length(way);
   const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
-  const int shape = light.at.vertex.on_surface ? static_cast<int>(light.at.vertex.hit.shape) : -1;
-  const Rgb passed = visibility_of_place(rays, {from.origin, way / length}, length, from.medium, shape);
+  const int shape = light.on_surface ? static_cast<int>(light.hit.shape) : -1;
+  const Rgb passed = visibility_of_place(rays, {from.ray.origin, way / length}, length, from.medium, shape);
   if (is_black(passed)) return;
   const Leg leg{passed, distance};
-  const Departure eye = depart_into(at, {direction, here.forward, here.reverse});
-  const Departure departure =
-      depart(c_.counts, light.at, {-direction, there.forward, there.reverse}, SubPath::light, false);
-  const SubPathSums at_eye = arrive(c_.counts, departure, leg, at.junction, at.vertex.point);
-  const SubPathSums at_light = arrive(c_.counts, eye, leg, light.at.junction, light.at.vertex.point);
+  const Departure eye = depart_into(at, direction, here.densities);
+  const Departure departure = depart(c_.counts, light, -direction, there.densities, SubPath::light, false);
+  const Behind at_eye = techniques_behind(c_.counts, departure, leg, at, at.point);
+  const Behind at_light = techniques_behind(c_.counts, eye, leg, light, light.point);
   const Rgb found = at_.state.throughput * here.value * there.value * light.power * passed *
                     static_cast<float>(leg.per_square() / c_.counts.connections);
-  add(Technique::connections, found, shares_of_connection(c_.counts, departure, at_eye, eye, at_light).connected);
+  add(Technique::connections, found, share_of_connection(c_.counts, departure, at_eye, eye, at_light));
 }
 
 namespace {
@@ -145,28 +143,27 @@ void for_each_pixel(const Camera& camera, const Vec2& film, Visit&& visit) {
 
 }  // namespace
 
-void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng& rng, LightSubPaths& paths) {
-  if (at.vertex.on_surface && at.sums.straight) return;
+void splat(const LightTracing& tracing, const PathVertex& at, Rng& rng, LightSubPaths& paths) {
+  if (at.on_surface && at.straight) return;
   const Scene& scene = tracing.scene;
   const Camera& camera = scene.camera;
-  const Vec3 offset = camera.position - at.vertex.point;
+  const Vec3 offset = camera.position - at.point;
   const float distance = glm::length(offset);
   const Vec3 direction = offset / distance;
   const std::optional<Vec2> film = camera.film_of(-direction);
   if (!film || !is_on_film(camera, *film)) return;
-  const Scattered scattered = scattered_into(scene, at.vertex, direction, SubPath::light);
+  const Scattered scattered = scattered_into(scene, at, direction, SubPath::light);
   if (is_black(scattered.value)) return;
-  const Leaving leaving = leave(scene, at.vertex, direction);
+  const PathState leaving = leave(scene, at, direction);
   const ShadowRays rays{scene, tracing.transmittance, rng, paths.ledger.walk};
-  const float length = glm::distance(camera.position, leaving.origin);
-  const Rgb passed = visibility_of_place(rays, {leaving.origin, direction}, length, leaving.medium);
+  const float length = glm::distance(camera.position, leaving.ray.origin);
+  const Rgb passed = visibility_of_place(rays, leaving.ray, length, leaving.medium);
   if (is_black(passed)) return;
   const Leg leg{passed, distance};
-  const Departure departure =
-      depart(tracing.counts, at, {direction, scattered.forward, scattered.reverse}, SubPath::light, true);
-  const SubPathSums at_camera = arrive(tracing.counts, departure, leg, {}, camera.position);
+  const Departure departure = depart(tracing.counts, at, direction, scattered.densities, SubPath::light, true);
+  const Behind at_camera = techniques_behind(tracing.counts, departure, leg, {}, camera.position);
   const double film_density = camera.film_per_angle(-direction);
-  const Rgb irradiance = power * scattered.value * passed * static_cast<float>(leg.per_square());
+  const Rgb irradiance = at.power * scattered.value * passed * static_cast<float>(leg.per_square());
   for_each_pixel(camera, *film, [&](uint32_t pixel, double filter) {
     const double density = filter * film_density;
     const Splat splat{pixel, irradiance * static_cast<float>(density),

@@ -29,7 +29,7 @@ KernelEstimate EyeSubPath::follow() {
 
 void EyeSubPath::follow_branch() {
   for (; at_.events < c_.max_events; ++at_.events) {
-    const std::optional<Arrival> at = at_.only_specular ? pass_through() : fly();
+    const std::optional<PathVertex> at = at_.only_specular ? pass_through() : fly();
     if (!at || !visit(*at)) return;
   }
   ++work_.counters.cut_paths;
@@ -63,7 +63,7 @@ bool EyeSubPath::Along::pass(const Stretch& stretch) {
   return !is_black(passed);
 }
 
-std::optional<Arrival> EyeSubPath::pass_through() {
+std::optional<PathVertex> EyeSubPath::pass_through() {
   Along along{*this, at_.state.ray, at_.state.medium};
   const std::optional<Hit> hit = each_stretch(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
   if (along.through_scattering) branch_off();
@@ -94,7 +94,7 @@ void EyeSubPath::branch_off() {
   at_ = start;
 }
 
-std::optional<Arrival> EyeSubPath::fly() {
+std::optional<PathVertex> EyeSubPath::fly() {
   Rgb passed(1.0f);
   const Event event = fly_to_event(passed);
   if (event.kind == EventKind::escape) see_environment(passed);
@@ -115,65 +115,48 @@ Event EyeSubPath::fly_to_event(Rgb& passed) {
 
 // --- Vertices
 
-Arrival EyeSubPath::arrive_at(const Event& event, const Rgb& passed) {
-  Arrival at;
-  at.vertex = vertex_at(c_.scene, event, at_.state);
-  at.leg = leg_to(at_.from, at.vertex.point, passed);
-  if (at.vertex.on_surface) see_emitter(at.vertex, at.leg);
-  at.junction = junction_of(c_.counts, c_.scene, at.vertex);
-  at.sums = arrive(c_.counts, at_.from, at.leg, at.junction, at.vertex.point);
+PathVertex EyeSubPath::arrive_at(const Event& event, const Rgb& passed) {
+  PathVertex at = vertex_at(c_.scene, event, at_.state);
+  at.leg = leg_to(at_.from, at.point, passed);
+  if (at.on_surface) see_emitter(at);
+  at.set_junction(junction_of(c_.counts, c_.scene, at));
+  arrive(c_.counts, at_.from, at);
   return at;
 }
 
-bool EyeSubPath::visit(const Arrival& at) {
+bool EyeSubPath::visit(const PathVertex& at) {
   if (!is_finite(at_.state.throughput)) {  // the sample is counted, and dropped
     radiance_ += KernelEstimate(at_.state.throughput);
     return false;
   }
   if (is_black(at_.state.throughput)) return false;
-  if (!at.vertex.specular) {
+  if (!at.specular) {
     if (!at_.only_specular && !c_.counts.deep) return false;
     if (at_.asks == 0.0f) return false;
     at_.state.throughput = asked();
     at_.asks = 1.0f;
     sample_light(at);
     connect(at);
-    at.vertex.on_surface ? merge_surface(at) : merge_points_3d(at);
+    at.on_surface ? merge_surface(at) : merge_points_3d(at);
     if (!c_.counts.deep && !c_.counts.run_into) return false;
   }
   if (!go_on(at)) return false;
-  at_.only_specular &= at.vertex.specular;
+  at_.only_specular &= at.specular;
   return true;
 }
 
-bool EyeSubPath::go_on(const Arrival& at) {
-  const PathVertex& vertex = at.vertex;
-  if (vertex.specular && at_.only_specular)
-    if (const auto sides = both_sides(vertex.material, vertex.hit, at_.state.ray.direction, at_.part)) {
+bool EyeSubPath::go_on(const PathVertex& at) {
+  if (at.specular && at_.only_specular)
+    if (const auto sides = both_sides(at.material, at.hit, at_.state.ray.direction, at_.part)) {
       follow_both_sides(at, *sides);
       return true;
     }
-  Onward onward;
-  if (!vertex.on_surface) {
-    const MediumProperties here = c_.scene.media[vertex.medium].properties(vertex.point);
-    if (!scatter_in_medium(here, at_.state, work_.rng)) return false;
-    onward.forward = onward.reverse = phase_value(here.phase, vertex.travel, at_.state.ray.direction);
-  } else {
-    Scatter scatter;
-    if (!scatter_at_surface(c_.scene, vertex.hit, at_.state, work_.rng, scatter)) return false;
-    at_.state.throughput *= scatter.radiance_scale;
-    onward.reverse = scatter.radiance_scale;
-    if (!vertex.specular) {
-      onward.forward = scatter.pdf;
-      onward.reverse = scatter_value(vertex.material, vertex.hit, -at_.state.ray.direction, -vertex.travel).pdf;
-    }
-  }
-  onward.direction = at_.state.ray.direction;
-  at_.from = depart_into(at, onward);
-  return true;
+  const std::optional<Densities> densities = scatter(c_.scene, at, SubPath::eye, at_.state, work_.rng);
+  if (densities) at_.from = depart_into(at, at_.state.ray.direction, *densities);
+  return densities.has_value();
 }
 
-void EyeSubPath::follow_both_sides(const Arrival& at, const BothSides& sides) {
+void EyeSubPath::follow_both_sides(const PathVertex& at, const BothSides& sides) {
   Branch back = side(at, sides.back, sides.reflected);
   Branch beyond = side(at, sides.beyond, 1.0f - sides.reflected);
   Branch& stronger = sides.mostly_beyond() ? beyond : back;
@@ -183,13 +166,13 @@ void EyeSubPath::follow_both_sides(const Arrival& at, const BothSides& sides) {
   at_ = sides.mostly_beyond() ? back : beyond;
 }
 
-EyeSubPath::Branch EyeSubPath::side(const Arrival& at, const Scatter& scatter, float fraction) const {
+EyeSubPath::Branch EyeSubPath::side(const PathVertex& at, const Scatter& scatter, float fraction) const {
   Branch branch = at_;
   branch.state.throughput *= scatter.weight * (fraction * scatter.radiance_scale);
   branch.part *= fraction;
   branch.asks *= asks_with(fraction, work_.rng);
-  leave_along(c_.scene, at.vertex.hit, scatter, branch.state);
-  branch.from = depart_into(at, {branch.state.ray.direction, 1.0, scatter.radiance_scale});
+  leave_along(c_.scene, at.hit, scatter, branch.state);
+  branch.from = depart_into(at, branch.state.ray.direction, {1.0, scatter.radiance_scale});
   return branch;
 }
 

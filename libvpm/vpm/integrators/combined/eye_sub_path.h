@@ -51,52 +51,52 @@ class EyeSubPath {
 
   /// Takes a ray that comes from the camera to the surface that ends it, attenuated, as if it could not collide; and
   /// from where it does collide a branch of its own. So no chance decides whether the surface is seen.
-  std::optional<Arrival> pass_through();
+  std::optional<PathVertex> pass_through();
   /// Follows a branch from where the ray collides, if it does, to its end.
   void branch_off();
   /// Flies to the next vertex, and sees the lights that the flight runs into.
-  std::optional<Arrival> fly();
+  std::optional<PathVertex> fly();
   /// Flies to the next event; `passed` becomes the transmittance up to it.
   Event fly_to_event(Rgb& passed);
   /// Makes the event a vertex.
-  Arrival arrive_at(const Event& event, const Rgb& passed);
+  PathVertex arrive_at(const Event& event, const Rgb& passed);
   /// Finds light at a vertex. Returns whether the sub-path goes on from there.
-  bool visit(const Arrival& at);
+  bool visit(const PathVertex& at);
   /// Draws how the sub-path goes on; at smooth glass that only specular vertices have led to, to both sides.
-  bool go_on(const Arrival& at);
+  bool go_on(const PathVertex& at);
   /// Goes on to the weaker side of glass and leaves the stronger one for later.
-  void follow_both_sides(const Arrival& at, const BothSides& sides);
-  Branch side(const Arrival& at, const Scatter& scatter, float fraction) const;
+  void follow_both_sides(const PathVertex& at, const BothSides& sides);
+  Branch side(const PathVertex& at, const Scatter& scatter, float fraction) const;
   /// The throughput of what techniques find along the ray.
   Rgb asked() const { return at_.state.throughput * at_.asks; }
 
   // connections.cpp
   void see_environment(const Rgb& passed);
-  void see_emitter(const PathVertex& vertex, const Leg& leg);
+  void see_emitter(const PathVertex& at);
   /// Adds the light that the sub-path has run into, at a point with that normal.
   void run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted);
   /// Samples a light, or each; on surfaces that light passes, for either side.
-  void sample_light(const Arrival& at);
+  void sample_light(const PathVertex& at);
   /// Seen from a place just off a surface: rays that are aimed from there meet what they are aimed at.
-  void sample_light(const Arrival& at, const Receiver& side);
+  void sample_light(const PathVertex& at, const Receiver& side);
   /// The light of that number, whose samples have the weight.
-  void sample_light(const Arrival& at, const Receiver& side, int number, float weight);
+  void sample_light(const PathVertex& at, const Receiver& side, int number, float weight);
   /// Connects the vertex to some vertices of light sub-paths, drawn from all.
-  void connect(const Arrival& at);
-  void connect_to(const Arrival& at, const LightVertex& light);
+  void connect(const PathVertex& at);
+  void connect_to(const PathVertex& at, const PathVertex& light);
 
   // A file for each
-  void merge_surface(const Arrival& at);
+  void merge_surface(const PathVertex& at);
   /// On a surface that reflects diffusely, seen from that side of it.
-  void merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& reflectance);
-  void merge_points_3d(const Arrival& at);
+  void merge_diffuse(const PathVertex& at, const Vec3& side, const Rgb& reflectance);
+  void merge_points_3d(const PathVertex& at);
   void merge_along_ray(const Along& along, const Interval& interval);
 
   /// Adds what a technique finds, of which it has a share.
   void add(Technique technique, const KernelEstimate& found, double share);
   void add_merged(Technique technique, const Rgb& found, const KernelPair<float>& kernel, double share);
-  Departure depart_into(const Arrival& at, const Onward& onward) const {
-    return depart(c_.counts, at, onward, SubPath::eye, at_.only_specular);
+  Departure depart_into(const PathVertex& at, const Vec3& direction, const Densities& densities) const {
+    return depart(c_.counts, at, direction, densities, SubPath::eye, at_.only_specular);
   }
 
   const CombinedContext& c_;

@@ -7,14 +7,14 @@ namespace vpm {
 FlightTerms flight_terms(const TechniqueCounts& counts, const Departure& from, const Rgb& before, const Vec3& origin) {
   const Leg a_metre{Rgb(1.0f), 1.0};
   const Junction there{Junction::Kind::medium, Vec3(0.0f), Rgb(1.0f)};
-  const SubPathSums sums = arrive(counts, from, a_metre, there, from.point + from.direction);
+  const Vec3 place = from.point + from.direction;
   const double unit = 1.0 / (from.forward * counts.short_beams);
   FlightTerms terms;
   terms.before = before;
   terms.offset = glm::distance(from.point, origin);
   terms.parallel = from.parallel;
   if (const double back = arrival(from.from, from.direction, a_metre); back > 0.0) {
-    const double behind = sums.further / counts.weigh(back);
+    const double behind = techniques_behind(counts, from, a_metre, there, place).further / counts.weigh(back);
     const double weighed = counts.heuristic == Heuristic::power ? std::sqrt(behind) : behind;
     const bool collided = from.from.kind == Junction::Kind::medium;
     terms.back =
@@ -25,7 +25,7 @@ FlightTerms flight_terms(const TechniqueCounts& counts, const Departure& from, c
     terms.round = from.light;
     terms.normal = from.from.normal;
   }
-  terms.adjacent = finite_density((round ? 1.0 / from.place : sums.adjacent) * unit);
+  terms.adjacent = finite_density((round ? 1.0 / from.place : connections_over(from, a_metre, there, place)) * unit);
   return terms;
 }
 

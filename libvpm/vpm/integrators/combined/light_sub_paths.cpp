@@ -31,7 +31,7 @@ class LightSubPath {
  private:
   void follow() {
     for (int events = 0; events < c_.max_events; ++events) {
-      const std::optional<Arrival> at = fly();
+      const std::optional<PathVertex> at = fly();
       if (!at || !go_on(*at)) return;
     }
     ++out_.ledger.cut_count;
@@ -58,7 +58,7 @@ class LightSubPath {
   }
 
   /// Flies to the next vertex.
-  std::optional<Arrival> fly() {
+  std::optional<PathVertex> fly() {
     tracks_.clear();
     const Event event = next_event(c_.scene, c_.strategy, state_, rng_, out_.ledger.walk, kInfinity, &tracks_);
     Rgb passed(1.0f);
@@ -75,11 +75,11 @@ class LightSubPath {
     if (event.kind == EventKind::escape) lose(state_.throughput, out_.ledger.escaped);
     if (event.kind != EventKind::collision && event.kind != EventKind::surface) return std::nullopt;
     ++(event.kind == EventKind::collision ? out_.ledger.collisions : out_.ledger.surface_hits);
-    Arrival at;
-    at.vertex = vertex_at(c_.scene, event, state_);
-    at.leg = leg_to(from_, at.vertex.point, passed);
-    at.junction = junction_of(c_.counts, c_.scene, at.vertex);
-    at.sums = arrive(c_.counts, from_, at.leg, at.junction, at.vertex.point);
+    PathVertex at = vertex_at(c_.scene, event, state_);
+    at.leg = leg_to(from_, at.point, passed);
+    at.power = state_.throughput;
+    at.set_junction(junction_of(c_.counts, c_.scene, at));
+    arrive(c_.counts, from_, at);
     return at;
   }
 
@@ -103,20 +103,18 @@ class LightSubPath {
     });
   }
 
-  void keep_on_surface(const Arrival& at) {
-    if (c_.counts.surfaces == 0.0 || at.sums.straight) return;
-    const BehindMerge behind = behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, true).surface);
-    out_.on_surfaces.push_back({at.vertex.point, at.vertex.travel, state_.throughput, behind});
+  void keep_on_surface(const PathVertex& at) {
+    if (c_.counts.surfaces == 0.0 || at.straight) return;
+    out_.on_surfaces.push_back({at.point, at.travel, at.power, at.behind.over(merges_on_surface(c_.counts, true))});
   }
 
-  void keep_collided(const Arrival& at) {
+  void keep_collided(const PathVertex& at) {
     if (!merges_points()) return;
-    const Medium& medium = c_.scene.media[at.vertex.medium];
-    const float density = relative_density(medium, at.vertex.density);
+    const Medium& medium = c_.scene.media[at.medium];
+    const float density = relative_density(medium, at.density);
     const float floor = medium.grid ? floor_in(medium, c_.counts.density_floor) : 0.0f;
     if (density < floor) count(out_.ledger.floored);
-    keep_photon(at.vertex.medium, at.vertex.point, at.leg,
-                stored_power(state_.throughput, VolumeForm::density_at_query, density, floor));
+    keep_photon(at.medium, at.point, at.leg, stored_power(at.power, VolumeForm::density_at_query, density, floor));
   }
 
   bool merges_points() const { return c_.counts.points_2d > 0.0 || c_.counts.merges_points_3d(true); }
@@ -124,47 +122,22 @@ class LightSubPath {
   /// Of a power as stored_power() says.
   void keep_photon(MediumId medium, const Vec3& point, const Leg& leg, const Rgb& power) {
     const Junction even{Junction::Kind::medium, Vec3(0.0f), c_.scene.media[medium].sigma_t};
-    const SubPathSums sums = arrive(c_.counts, from_, leg, even, point);
     out_.photons[medium].push_back(
-        {point, from_.direction, power, behind_merge(c_.counts, sums), passing(even.sigma_t, leg)});
+        {point, from_.direction, power, arrive(c_.counts, from_, leg, even, point), passing(even.sigma_t, leg)});
   }
 
   /// Keeps the vertex, and draws how the sub-path goes on.
-  bool go_on(const Arrival& at) {
-    const PathVertex& vertex = at.vertex;
-    if (!vertex.specular && (vertex.on_surface || c_.scene.media[vertex.medium].scatters())) {
-      if (connectable_) out_.vertices.push_back({at, state_.throughput});
-      vertex.on_surface ? keep_on_surface(at) : keep_collided(at);
-      if (c_.counts.splats > 0.0) splat(c_, at, state_.throughput, rng_, out_);
+  bool go_on(const PathVertex& at) {
+    if (!at.specular && (at.on_surface || c_.scene.media[at.medium].scatters())) {
+      if (connectable_) out_.vertices.push_back(at);
+      at.on_surface ? keep_on_surface(at) : keep_collided(at);
+      if (c_.counts.splats > 0.0) splat(c_, at, rng_, out_);
     }
-    const Rgb before = state_.throughput;
-    Rgbd& absorbed = vertex.on_surface ? out_.ledger.absorbed_on_surfaces : out_.ledger.absorbed_in_media;
-    const bool goes_on = scatter(at);
-    lose(goes_on ? before - state_.throughput : before, absorbed);
-    return goes_on;
-  }
-
-  /// Draws the direction in which the sub-path goes on. False if it is absorbed.
-  bool scatter(const Arrival& at) {
-    const PathVertex& vertex = at.vertex;
-    Onward onward;
-    if (!vertex.on_surface) {
-      const MediumProperties here = c_.scene.media[vertex.medium].properties(vertex.point);
-      if (!scatter_in_medium(here, state_, rng_)) return false;
-      onward.forward = onward.reverse = phase_value(here.phase, vertex.travel, state_.ray.direction);
-    } else {
-      Scatter scatter;
-      if (!scatter_at_surface(c_.scene, vertex.hit, state_, rng_, scatter)) return false;
-      state_.throughput *= scatter.flux_scale;
-      onward.reverse = scatter.radiance_scale;
-      if (!vertex.specular) {
-        onward.forward = scatter.pdf;
-        onward.reverse = scatter_value(vertex.material, vertex.hit, -state_.ray.direction, -vertex.travel).pdf;
-      }
-    }
-    onward.direction = state_.ray.direction;
-    from_ = depart(c_.counts, at, onward, SubPath::light, false);
-    return true;
+    Rgbd& absorbed = at.on_surface ? out_.ledger.absorbed_on_surfaces : out_.ledger.absorbed_in_media;
+    const std::optional<Densities> densities = scatter(c_.scene, at, SubPath::light, state_, rng_);
+    lose(densities ? at.power - state_.throughput : at.power, absorbed);
+    if (densities) from_ = depart(c_.counts, at, state_.ray.direction, *densities, SubPath::light, false);
+    return densities.has_value();
   }
 
   const LightTracing& c_;

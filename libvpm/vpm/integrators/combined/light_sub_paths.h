@@ -14,12 +14,6 @@
 
 namespace vpm {
 
-/// A vertex of a light sub-path that is not specular, to be connected to.
-struct LightVertex {
-  Arrival at;
-  Rgb power{0.0f};  // with which the sub-path arrives, W, were it the only one
-};
-
 /// Parts of flights, by medium.
 struct LightFlights {
   std::vector<std::vector<PhotonBeam>> beams;
@@ -36,8 +30,8 @@ struct Splat {
 };
 
 struct LightSubPaths {
-  std::vector<LightVertex> vertices;              // of the sub-paths that may be connected to
-  uint64_t connectable = 0;                       // how many these are
+  std::vector<PathVertex> vertices;               // that eye sub-paths are connected to
+  uint64_t connectable = 0;                       // of how many sub-paths
   std::vector<MergePhoton> on_surfaces;           // but those straight from lights that are sampled
   std::vector<std::vector<MergePhoton>> photons;  // by medium
   LightFlights flights;
@@ -60,8 +54,8 @@ struct LightTracing {
   uint64_t connectable = ~uint64_t{0};  // the first so many sub-paths may be connected to
 };
 
-/// Light tracing: connects a vertex, with the power that arrives there, W, to the camera.
-void splat(const LightTracing& tracing, const Arrival& at, const Rgb& power, Rng& rng, LightSubPaths& paths);
+/// Light tracing: connects a vertex to the camera.
+void splat(const LightTracing& tracing, const PathVertex& at, Rng& rng, LightSubPaths& paths);
 
 /// Traces the light sub-paths of these numbers one after another. Sub-path i depends on `numbers` and i alone.
 void trace_light_sub_paths(const LightTracing& tracing, uint64_t begin, uint64_t end, LightSubPaths& paths);

@@ -13,12 +13,12 @@ struct MergePhoton {
   Vec3 point{0.0f};      // m
   Vec3 travel{0.0f};     // unit
   Rgb power{0.0f};       // W; in a medium over the density relative to its largest, see stored_power()
-  BehindMerge behind{};  // on a surface over MergeTerms::surface; in a medium as it would be where the density is 1, in
+  Behind behind;         // on a surface over merges_on_surface(); in a medium as it would be where the density is 1, in
                          // maps times behind_scale()
   double passing = 0.0;  // in a medium: of the leg that led there, m, likewise
 };
 
-/// Makes BehindMerge a number without a unit, by the density of points-2d in a medium of that extinction at density 1,
+/// Makes Behind a number without a unit, by the density of points-2d in a medium of that extinction at density 1,
 /// 1/m, a mean over channels: a float has room for it, however large a scene is.
 inline double behind_scale(const TechniqueCounts& counts, double sigma_t) {
   return counts.points_2d > 0.0 && sigma_t > 0.0 ? counts.weigh(sigma_t / counts.points_2d) : 1.0;

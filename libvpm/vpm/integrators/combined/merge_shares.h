@@ -57,7 +57,7 @@ class SharesOfBeams {
 struct PhotonsBesideRays {
   Floats sine;               // of the angle between the photon's flight and the ray
   Floats passing;            // of the photon's flight, m
-  Floats adjacent, further;  // BehindMerge, times behind_scale()
+  Floats adjacent, further;  // Behind, times behind_scale()
   Floats phase;              // of scattering towards the eye, 1/sr
   Floats density;            // of the medium at the place on the ray, > 0
   Floats kept;               // Junction::kept

@@ -68,32 +68,30 @@ Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, doub
   return start;
 }
 
-Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward& onward, SubPath way, bool first) {
-  const SubPathSums& sums = at.sums;
-  const Junction& from = at.junction;
+Departure depart(const TechniqueCounts& counts, const PathVertex& at, const Vec3& direction, const Densities& densities,
+                 SubPath way, bool first) {
   Departure departure;
-  departure.from = from;
-  departure.point = at.vertex.point;
-  departure.direction = onward.direction;
-  departure.forward = onward.forward;
-  if (counts.deep || first || from.kind == Junction::Kind::free) {
-    const BehindMerge behind = behind_merge(counts, sums);
-    departure.behind = behind.sum(counts.weigh(onward.reverse));
-    if (from.kind == Junction::Kind::surface) {
-      if (!sums.straight) departure.unless_straight = merges_on_surface(counts, first).sum();
-      if (sums.seen) {
-        departure.behind = counts.weigh(onward.reverse) * behind.further;
-        departure.unless_straight += behind.adjacent;
+  departure.from = at;
+  departure.point = at.point;
+  departure.direction = direction;
+  departure.forward = densities.forward;
+  if (counts.deep || first || at.kind == Junction::Kind::free) {
+    departure.behind = at.behind.sum(counts.weigh(densities.reverse));
+    if (at.kind == Junction::Kind::surface) {
+      if (!at.straight) departure.unless_straight = merges_on_surface(counts, first);
+      if (at.seen) {
+        departure.behind = counts.weigh(densities.reverse) * at.behind.further;
+        departure.unless_straight += at.behind.adjacent;
       }
     }
   }
-  departure.adjacent = from.kind == Junction::Kind::free ? 0.0 : counts.connections;
+  departure.adjacent = at.kind == Junction::Kind::free ? 0.0 : counts.connections;
   departure.way = way;
-  if (from.kind != Junction::Kind::medium) return departure;
+  if (at.kind != Junction::Kind::medium) return departure;
   departure.merges = true;
   departure.first = first;
   departure.arrived = at.leg;
-  departure.sine = sine_between(at.vertex.travel, onward.direction);
+  departure.sine = sine_between(at.travel, direction);
   return departure;
 }
 
@@ -103,65 +101,84 @@ Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittan
   return {transmittance, std::max(kLeast, glm::distance(Vec3d(departure.point), Vec3d(point)))};
 }
 
-SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
-                   const Vec3& point) {
-  double behind = departure.behind + (at.light && counts.light ? 0.0 : departure.unless_straight);
+double connections_over(const Departure& departure, const Leg& leg, const Junction& at, const Vec3& point) {
+  if (at.kind == Junction::Kind::free) return 0.0;
+  if (!departure.light) return departure.adjacent;
+  return sampled_density(*departure.light, point,
+                         {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
+         departure.place;
+}
+
+Behind techniques_behind(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
+                         const Vec3& point) {
+  double sum = departure.behind + (at.light && counts.light ? 0.0 : departure.unless_straight);
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
     const Leg &from_light = light ? departure.arrived : leg, &from_eye = light ? leg : departure.arrived;
-    behind += merges_in_medium(counts, departure.from, passing(sigma_t, from_light), from_eye, departure.sine,
-                               departure.first)
-                  .sum();
+    sum += merges_in_medium(counts, departure.from, passing(sigma_t, from_light), from_eye, departure.sine,
+                            departure.first);
   }
-  SubPathSums sums;
-  sums.density = std::max(kLeastDensity, departure.forward * arrival(at, departure.direction, leg) * leg.per_square());
-  sums.further = counts.weigh(arrival(departure.from, departure.direction, leg) * leg.per_square()) * behind;
-  if (at.kind == Junction::Kind::free) return sums;
-  sums.adjacent = departure.adjacent;
-  sums.straight = departure.light != nullptr;
-  sums.seen = departure.camera;
-  if (departure.light)
-    sums.adjacent = sampled_density(*departure.light, point,
-                                    {-departure.direction, static_cast<float>(leg.distance), departure.from.normal}) /
-                    departure.place;
-  return sums;
+  return {counts.weigh(connections_over(departure, leg, at, point)),
+          counts.weigh(arrival(departure.from, departure.direction, leg) * leg.per_square()) * sum};
+}
+
+Behind arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
+              const Vec3& point) {
+  const double density =  // f_i, or r_i, of the last vertex
+      std::max(kLeastDensity, departure.forward * arrival(at, departure.direction, leg) * leg.per_square());
+  return techniques_behind(counts, departure, leg, at, point).over(counts.weigh(density));
+}
+
+void arrive(const TechniqueCounts& counts, const Departure& departure, PathVertex& vertex) {
+  const bool free = vertex.kind == Junction::Kind::free;
+  vertex.behind = arrive(counts, departure, vertex.leg, vertex, vertex.point);
+  vertex.straight = !free && departure.light;
+  vertex.seen = !free && departure.camera;
 }
 
 double passing(const Rgb& sigma_t, const Leg& leg) { return leg.mean() * (1.0 / colliding(sigma_t, leg)); }
 
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing, const Leg& from_eye,
-                            double sine, bool first) {
-  MergeTerms terms;
-  terms.points_3d = counts.merges_points_3d(first) ? counts.weigh(counts.points_3d * there.kept) : 0.0;
-  if (!first) return terms;
-  const double eye = 1.0 / colliding(there.sigma_t, from_eye);  // as its sub-path need not collide here, m
-  terms.points_2d = counts.weigh(counts.points_2d * there.kept * eye);
-  terms.short_beams = counts.weigh(counts.short_beams * sine * passing * eye);
-  return terms;
+double points_3d_merged(const TechniqueCounts& counts, const Junction& there, bool first) {
+  return counts.merges_points_3d(first) ? counts.weigh(counts.points_3d * there.kept) : 0.0;
 }
 
-MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first) {
-  return {.surface = counts.merges_surfaces(first) ? counts.weigh(counts.surfaces) : 0.0};
+double merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing, const Leg& from_eye,
+                        double sine, bool first) {
+  const double points_3d = points_3d_merged(counts, there, first);
+  if (!first) return points_3d;
+  const double eye = 1.0 / colliding(there.sigma_t, from_eye);  // as its sub-path need not collide here, m
+  const double points_2d = counts.weigh(counts.points_2d * there.kept * eye);
+  const double short_beams = counts.weigh(counts.short_beams * sine * passing * eye);
+  return points_3d + points_2d + short_beams;
+}
+
+double merges_on_surface(const TechniqueCounts& counts, bool first) {
+  return counts.merges_surfaces(first) ? counts.weigh(counts.surfaces) : 0.0;
 }
 
 double sine_between(const Vec3& a, const Vec3& b) { return glm::length(glm::cross(Vec3d(a), Vec3d(b))); }
 
-BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums) {
-  const double density = counts.weigh(sums.density);
-  return {counts.weigh(sums.adjacent) / density, sums.further / density};
+namespace {
+
+double all_at_connection(const TechniqueCounts& counts, const Departure& light, const Behind& at_eye,
+                         const Departure& eye, const Behind& at_light) {
+  return at_eye.sum(counts.weigh(eye.forward)) + counts.weigh(light.forward) * at_light.further;
 }
 
-ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Departure& light, const SubPathSums& at_eye,
-                                      const Departure& eye, const SubPathSums& at_light) {
-  const double connected = counts.weigh(at_eye.adjacent);
-  const double behind = counts.weigh(eye.forward) * at_eye.further;
-  const double before = counts.weigh(light.forward) * at_light.further;
-  const double all = connected + behind + before;
-  return {connected / all, behind / all};
+}  // namespace
+
+double share_of_connection(const TechniqueCounts& counts, const Departure& light, const Behind& at_eye,
+                           const Departure& eye, const Behind& at_light) {
+  return at_eye.adjacent / all_at_connection(counts, light, at_eye, eye, at_light);
 }
 
-double share_of_splat(const TechniqueCounts& counts, const SubPathSums& at_camera, double camera_density) {
+double share_of_running_into(const TechniqueCounts& counts, const Departure& light, const Behind& at_eye,
+                             const Departure& eye, const Behind& at_light) {
+  return counts.weigh(eye.forward) * at_eye.further / all_at_connection(counts, light, at_eye, eye, at_light);
+}
+
+double share_of_splat(const TechniqueCounts& counts, const Behind& at_camera, double camera_density) {
   const double splats = counts.weigh(counts.splats);
   return splats / (splats + counts.weigh(camera_density) * at_camera.further);
 }

@@ -17,10 +17,10 @@
 // vertex,
 //   S_i = r_i ((c_{i-1} + S_{i-1}) / f_i + N m_i),
 // and in the same way from the eye. Of S_{i-1}, at x_i only its last factor r_{i-1} is not known, and of that only the
-// density of the direction, which depends on where the path goes on to: this is why SubPathSums has its members.
-// With the power heuristic all terms are squared. See [Georgiev2012] for connections and merges on surfaces, and
-// [Krivanek2014] for all merges in media, where media are homogeneous. In grids no factor changes, as the transmittance
-// of each leg is known exactly.
+// density of the direction, which depends on where the path goes on to: this is why Behind has its members. With the
+// power heuristic all terms are squared. See [Georgiev2012] for connections and merges on surfaces, and [Krivanek2014]
+// for all merges in media, where media are homogeneous. In grids no factor changes, as the transmittance of each leg is
+// known exactly.
 #pragma once
 
 #include <algorithm>
@@ -60,24 +60,6 @@ struct TechniqueCounts {
   double weigh(double x) const { return heuristic == Heuristic::power ? x * x : x; }
 };
 
-/// A part of a path between two vertices.
-struct Leg {
-  Rgb transmittance{1.0f};
-  double distance = 0.0;  // m; 1 where light is parallel, as it does not spread
-
-  double mean() const { return mean_channel(transmittance); }
-  double per_square() const { return 1.0 / (distance * distance); }
-};
-
-/// A place of a path as densities see it.
-struct Junction {
-  enum class Kind { surface, medium, free };  // free: a specular vertex, a point, or infinity
-  Kind kind = Kind::free;
-  Vec3 normal{0.0f};   // of a surface, unit
-  Rgb sigma_t{0.0f};   // in a medium, at the place, 1/m
-  bool light = false;  // is the light there that a path begins at?
-  double kept = 1.0;   // in a medium: how many photons are stored there for merges, for each that collides
-};
 Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex);
 /// Of a place of that density in a medium.
 Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float density);
@@ -85,30 +67,6 @@ Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float 
 /// The density of coming to a place along `direction` through a leg, over that of the direction: 1/m^2 on surfaces,
 /// 1/m^3 in media. The mean over channels stands for the mixture that distances are drawn from.
 double arrival(const Junction& at, const Vec3& direction, const Leg& leg);
-
-/// The sums that a sub-path carries at its last vertex.
-struct SubPathSums {
-  double density = 1.0;   // of the vertex: f_i, or r_i
-  double adjacent = 0.0;  // how many connections there are between the vertex and the one before
-  double further = 0.0;   // the sum over all techniques behind that, over the density of the direction back
-  bool straight = false;  // does the light come straight from a light that is sampled?
-  bool seen = false;      // does the camera see the vertex, without mirrors or glass in between?
-};
-
-/// A sub-path at a vertex that it has come to.
-struct Arrival {
-  PathVertex vertex;
-  Junction junction;
-  Leg leg;  // that led there
-  SubPathSums sums;
-};
-
-/// How a sub-path goes on from a vertex, with the densities of the direction and of the way back: at a specular vertex,
-/// 1 and the factor of refraction.
-struct Onward {
-  Vec3 direction{0.0f};                 // unit
-  double forward = 1.0, reverse = 1.0;  // 1/sr
-};
 
 /// The sine of the angle between two directions (unit).
 double sine_between(const Vec3& a, const Vec3& b);
@@ -140,59 +98,55 @@ Departure depart_from_light(const TechniqueCounts& counts, const Light& light, d
                             const EmissionDensity& emission, const Ray& ray, const Vec3& normal);
 /// A start at the camera, whose directions have the density `forward`, 1/sr.
 Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, double forward);
-/// Goes on from a vertex. `first` says whether it is, from the eye, the first vertex that is not specular.
-Departure depart(const TechniqueCounts& counts, const Arrival& at, const Onward& onward, SubPath way, bool first);
+/// Goes on from a vertex along `direction` (unit). `first` says whether it is, from the eye, the first vertex that is
+/// not specular.
+Departure depart(const TechniqueCounts& counts, const PathVertex& at, const Vec3& direction, const Densities& densities,
+                 SubPath way, bool first);
 
 /// The leg from a departure to a point, m.
 Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance);
 
-/// The sums at the next vertex, or at any point on the way that a merge takes for one.
-SubPathSums arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
-                   const Vec3& point);
+/// How many connections are made over the leg to `at`, as weigh() takes it.
+double connections_over(const Departure& departure, const Leg& leg, const Junction& at, const Vec3& point);
+/// What is behind the next vertex, or any point on the way that a merge takes for one, were its density 1.
+Behind techniques_behind(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
+                         const Vec3& point);
+/// The same, over its density.
+Behind arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
+              const Vec3& point);
+/// Sets what is behind a vertex that the departure has come to, over its leg.
+void arrive(const TechniqueCounts& counts, const Departure& departure, PathVertex& vertex);
 
-/// The densities of merges at one place, as the heuristic weighs them, over the densities of its two sub-paths.
-struct MergeTerms {
-  double surface = 0.0, points_3d = 0.0, points_2d = 0.0, short_beams = 0.0;
-
-  double sum() const { return surface + points_3d + points_2d + short_beams; }
-};
 /// How far a leg takes photons for each that collides at its end, m: beams pass where their photons need not collide.
 double passing(const Rgb& sigma_t, const Leg& leg);
-/// In a medium, between a leg from the light, of which passing() is given, and one from the eye, whose directions have
-/// that sine; `first` as in depart().
-MergeTerms merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing, const Leg& from_eye,
-                            double sine, bool first);
-MergeTerms merges_on_surface(const TechniqueCounts& counts, bool first);
+/// The density of points-3d at a place in a medium, over the densities of its two sub-paths, as the heuristic weighs
+/// it; `first` as in depart().
+double points_3d_merged(const TechniqueCounts& counts, const Junction& there, bool first);
+/// Likewise of all merges there, between a leg from the light, of which passing() is given, and one from the eye, whose
+/// directions have that sine.
+double merges_in_medium(const TechniqueCounts& counts, const Junction& there, double passing, const Leg& from_eye,
+                        double sine, bool first);
+double merges_on_surface(const TechniqueCounts& counts, bool first);
 
-/// What the techniques behind a vertex that merges add to the sum of all densities there.
-struct BehindMerge {
-  double adjacent = 0.0, further = 0.0;
-
-  /// The same where the density of the vertex is `factor` times as large, as the heuristic weighs it.
-  BehindMerge over(double factor) const { return {adjacent / factor, further / factor}; }
-
-  /// `back` is the density with which the other sub-path goes on along this one, 1/sr, as the heuristic weighs it.
-  double sum(double back) const { return adjacent + back * further; }
-};
-BehindMerge behind_merge(const TechniqueCounts& counts, const SubPathSums& sums);
 /// A density over another one, as a float has room for it: beside so much no share is left, to the last digit.
 inline float finite_density(double density) { return static_cast<float>(std::min(density, 1e30)); }
 
-/// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its term over it.
-/// `back_to_light` is the density with which the eye's sub-path goes on along the light's, 1/sr, `back_to_eye` the
-/// other one.
-inline double all_at_merge(const TechniqueCounts& counts, const MergeTerms& merges, const BehindMerge& light,
-                           double back_to_light, const BehindMerge& eye, double back_to_eye) {
-  return merges.sum() + light.sum(counts.weigh(back_to_light)) + eye.sum(counts.weigh(back_to_eye));
+/// The sum of all densities over those of the two sub-paths that meet at a vertex: a merge's share is its own over it.
+/// `merges` is the sum of those of merges there, `back_to_light` the density with which the eye's sub-path goes on
+/// along the light's, 1/sr, `back_to_eye` the other one.
+inline double all_at_merge(const TechniqueCounts& counts, double merges, const Behind& light, double back_to_light,
+                           const Behind& eye, double back_to_eye) {
+  return merges + light.sum(counts.weigh(back_to_light)) + eye.sum(counts.weigh(back_to_eye));
 }
-/// The shares of techniques that join two departures towards each other.
-struct ConnectionShares {
-  double connected = 0.0;  // of the connection itself; of the light that is sampled
-  double run_into = 0.0;   // of the eye's sub-path that runs into the light, where the light's is its start
-};
-ConnectionShares shares_of_connection(const TechniqueCounts& counts, const Departure& light, const SubPathSums& at_eye,
-                                      const Departure& eye, const SubPathSums& at_light);
+
+/// The share of the connection of two departures towards each other, or of the light that is sampled. `at_eye` is what
+/// is behind the eye's vertex for the light's sub-path, `at_light` the other way round.
+double share_of_connection(const TechniqueCounts& counts, const Departure& light, const Behind& at_eye,
+                           const Departure& eye, const Behind& at_light);
+/// Likewise of an eye's sub-path that runs into the light, where the light's is its start.
+double share_of_running_into(const TechniqueCounts& counts, const Departure& light, const Behind& at_eye,
+                             const Departure& eye, const Behind& at_light);
 /// The share of light tracing in what the light's sub-path, departing for the camera, brings there.
-double share_of_splat(const TechniqueCounts& counts, const SubPathSums& at_camera, double camera_density);
+double share_of_splat(const TechniqueCounts& counts, const Behind& at_camera, double camera_density);
 
 }  // namespace vpm

@@ -155,30 +155,27 @@ void merge_points(const CombinedContext& context, const Vec3& apex, std::span<co
 }
 
 // Photons in media around where an eye sub-path collides.
-void EyeSubPath::merge_points_3d(const Arrival& at) {
-  const PathVertex& vertex = at.vertex;
-  const MergeMap& map = c_.light.in_medium(vertex.medium);
+void EyeSubPath::merge_points_3d(const PathVertex& at) {
+  const MergeMap& map = c_.light.in_medium(at.medium);
   if (!c_.counts.merges_points_3d(at_.only_specular) || map.size() == 0) return;
-  const Medium& medium = c_.scene.media[vertex.medium];
+  const Medium& medium = c_.scene.media[at.medium];
   const float radius = c_.kernels.points_3d;
   const auto kernel = kernel_of<3>(c_.kernels.volume_kernel, radius);
   // Times the albedo and the relative density over the extinction, m
-  Rgb each = at_.state.throughput * (relative_density(medium, vertex.density) / static_cast<float>(c_.light_paths));
-  for (int c = 0; c < 3; ++c)
-    each[c] *= at.junction.sigma_t[c] > 0.0f ? medium.albedo()[c] / at.junction.sigma_t[c] : 0.0f;
-  const double scale = c_.light.scale_in(vertex.medium);
-  const BehindMerge eye = behind_merge(c_.counts, at.sums);
+  Rgb each = at_.state.throughput * (relative_density(medium, at.density) / static_cast<float>(c_.light_paths));
+  for (int c = 0; c < 3; ++c) each[c] *= at.sigma_t[c] > 0.0f ? medium.albedo()[c] / at.sigma_t[c] : 0.0f;
+  const double scale = c_.light.scale_in(at.medium) * c_.counts.weigh(at.density);
+  const double merged = points_3d_merged(c_.counts, at, at_.only_specular);
   count(work_.counters.volume_queries);
   count(work_.counters.gather.searches);
   const auto merge = [&](const MergePhoton& photon, float distance2) {
-    const float phase = phase_value(medium.phase, photon.travel, -vertex.travel);
-    const MergeTerms merges = merges_in_medium(c_.counts, at.junction, photon.passing / vertex.density, at.leg,
-                                               sine_between(photon.travel, vertex.travel), at_.only_specular);
-    const double all =
-        all_at_merge(c_.counts, merges, photon.behind.over(scale * c_.counts.weigh(vertex.density)), phase, eye, phase);
-    add_merged(Technique::points_3d, each * photon.power * phase, kernel(distance2), merges.points_3d / all);
+    const float phase = phase_value(medium.phase, photon.travel, -at.travel);
+    const double merges = merges_in_medium(c_.counts, at, photon.passing / at.density, at.leg,
+                                           sine_between(photon.travel, at.travel), at_.only_specular);
+    const double all = all_at_merge(c_.counts, merges, photon.behind.over(scale), phase, at.behind, phase);
+    add_merged(Technique::points_3d, each * photon.power * phase, kernel(distance2), merged / all);
   };
-  count(work_.counters.gather.visited, map.visit_near(vertex.point, radius, merge));
+  count(work_.counters.gather.visited, map.visit_near(at.point, radius, merge));
 }
 
 }  // namespace vpm

@@ -9,48 +9,44 @@
 
 namespace vpm {
 
-void EyeSubPath::merge_surface(const Arrival& at) {
+void EyeSubPath::merge_surface(const PathVertex& at) {
   const MergeMap& map = c_.light.on_surfaces();
   if (!c_.counts.merges_surfaces(at_.only_specular) || map.size() == 0) return;
   count(work_.counters.surface_queries);
   count(work_.counters.gather.searches);
-  const PathVertex& vertex = at.vertex;
-  const Vec3 side = glm::dot(vertex.hit.normal, vertex.travel) < 0.0f ? vertex.hit.normal : -vertex.hit.normal;
-  if (const Rgb* diffuse = diffuse_reflectance(vertex.material); diffuse && single_normal(vertex.hit))
+  const Vec3 side = glm::dot(at.hit.normal, at.travel) < 0.0f ? at.hit.normal : -at.hit.normal;
+  if (const Rgb* diffuse = diffuse_reflectance(at.material); diffuse && single_normal(at.hit))
     return merge_diffuse(at, side, *diffuse);
   const float radius = c_.kernels.surface;
   const auto kernel = kernel_of<2>(c_.kernels.surface_kernel, radius);
-  const Arrives arrives{side, kFlatness * radius, scatters_through(vertex.material)};
-  const BehindMerge eye =
-      behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, at_.only_specular).surface);
+  const Arrives arrives{side, kFlatness * radius, scatters_through(at.material)};
+  const Behind eye = at.behind.over(merges_on_surface(c_.counts, at_.only_specular));
   const Rgb each = at_.state.throughput / static_cast<float>(c_.light_paths);
   const auto merge = [&](const MergePhoton& photon, float distance2) {
     const bool faces = arrives.from_both_sides || glm::dot(photon.travel, side) < 0.0f;
-    if (!faces || !arrives.near_plane(photon.point - vertex.point)) return;
-    const Scattered scattered = scattered_into(c_.scene, vertex, -photon.travel, SubPath::eye);
-    const float cosine = std::abs(glm::dot(vertex.hit.normal, photon.travel));
+    if (!faces || !arrives.near_plane(photon.point - at.point)) return;
+    const Scattered scattered = scattered_into(c_.scene, at, -photon.travel, SubPath::eye);
+    const float cosine = std::abs(glm::dot(at.hit.normal, photon.travel));
     if (is_black(scattered.value) || cosine == 0.0f) return;
-    const double all =
-        1.0 + photon.behind.sum(c_.counts.weigh(scattered.forward)) + eye.sum(c_.counts.weigh(scattered.reverse));
+    const auto& [forward, reverse] = scattered.densities;
+    const double all = all_at_merge(c_.counts, 1.0, photon.behind, forward, eye, reverse);
     add_merged(Technique::surface_merging, each * scattered.value * photon.power / cosine, kernel(distance2),
                1.0 / all);
   };
-  count(work_.counters.gather.visited, map.visit_near(vertex.point, radius, merge));
+  count(work_.counters.gather.visited, map.visit_near(at.point, radius, merge));
 }
 
-void EyeSubPath::merge_diffuse(const Arrival& at, const Vec3& side, const Rgb& reflectance) {
+void EyeSubPath::merge_diffuse(const PathVertex& at, const Vec3& side, const Rgb& reflectance) {
   constexpr float kPerPi = 1.0f / kPi;
-  const PathVertex& vertex = at.vertex;
-  const float radius = c_.kernels.surface, to_eye = -glm::dot(side, vertex.travel) * kPerPi;
+  const float radius = c_.kernels.surface, to_eye = -glm::dot(side, at.travel) * kPerPi;
   const Arrives arrives{side, kFlatness * radius};
-  const BehindMerge behind =
-      behind_merge(c_.counts, at.sums).over(merges_on_surface(c_.counts, at_.only_specular).surface);
-  const float others = finite_density(1.0 + behind.sum(c_.counts.weigh(to_eye)));
+  const Behind eye = at.behind.over(merges_on_surface(c_.counts, at_.only_specular));
+  const float others = finite_density(1.0 + eye.sum(c_.counts.weigh(to_eye)));
   const bool squares = c_.counts.heuristic == Heuristic::power;
   MergedTotals totals;
   const auto merge = [&](auto profile) {
-    return c_.light.on_surfaces().visit_leaves_near(vertex.point, [&](const PhotonLeaf& leaf) {
-      const AroundPlace near = around(leaf, vertex.point, arrives, radius);
+    return c_.light.on_surfaces().visit_leaves_near(at.point, [&](const PhotonLeaf& leaf) {
+      const AroundPlace near = around(leaf, at.point, arrives, radius);
       if (!any(near.arrived)) return;
       count(work_.counters.gather.used, lanes_in(near.arrived));
       const Floats to_light = max(near.cosine, 0.0f) * kPerPi;

@@ -18,47 +18,54 @@ namespace {
 
 /// The sub-paths along the whole path, as they are traced.
 struct SubPaths {
-  std::vector<Arrival> light, eye;                  // at each vertex
+  std::vector<PathVertex> light, eye;               // at each vertex
   std::vector<Departure> light_leaves, eye_leaves;  // of each vertex
 };
 
+/// Vertex i of a sub-path that comes to it along `travel`, over a leg, from a departure.
+PathVertex arrived(const TechniqueCounts& counts, const WholePath& path, size_t i, const Vec3& travel, const Leg& leg,
+                   const Departure& from) {
+  PathVertex vertex = path.vertices[i];
+  vertex.travel = travel;
+  vertex.leg = leg;
+  arrive(counts, from, vertex);
+  return vertex;
+}
+
 SubPaths trace_along(const WholePath& path, const TechniqueCounts& counts) {
   const size_t k = path.last();
-  SubPaths traced{std::vector<Arrival>(k), std::vector<Arrival>(k), std::vector<Departure>(k),
+  SubPaths traced{std::vector<PathVertex>(k), std::vector<PathVertex>(k), std::vector<Departure>(k),
                   std::vector<Departure>(k + 1)};
-  const Vec3 normal = path.junctions[0].normal;
+  const Vec3 normal = path.vertices[0].normal;
   const EmissionDensity emission = emission_density(path.light, {}, normal, path.direction(0));
   traced.light_leaves[0] =
       depart_from_light(counts, path.light, path.chosen, emission, {path.points[0], path.direction(0)}, normal);
   for (size_t i = 1; i < k; ++i) {
-    traced.light[i] = {path.vertices[i], path.junctions[i], path.leg(i - 1),
-                       arrive(counts, traced.light_leaves[i - 1], path.leg(i - 1), path.junctions[i], path.points[i])};
-    const Onward onward{path.direction(i), density_on(path, i, true), density_on(path, i, false)};
-    traced.light_leaves[i] = depart(counts, traced.light[i], onward, SubPath::light, i + 1 == k);
+    traced.light[i] = arrived(counts, path, i, path.direction(i - 1), path.leg(i - 1), traced.light_leaves[i - 1]);
+    traced.light_leaves[i] =
+        depart(counts, traced.light[i], path.direction(i), {density_on(path, i, true), density_on(path, i, false)},
+               SubPath::light, i + 1 == k);
   }
   traced.eye_leaves[k] = depart_from_camera(counts, {path.points[k], -path.direction(k - 1)}, path.camera_density);
   for (size_t i = k - 1; i >= 1; --i) {
-    traced.eye[i] = {path.vertices[i], path.junctions[i], path.leg(i),
-                     arrive(counts, traced.eye_leaves[i + 1], path.leg(i), path.junctions[i], path.points[i])};
-    traced.eye[i].vertex.travel = -path.direction(i);
+    traced.eye[i] = arrived(counts, path, i, -path.direction(i), path.leg(i), traced.eye_leaves[i + 1]);
     // As walks do: 1 on, and the factor of refraction back, whichever way the sub-path goes.
     const bool specular = path.vertices[i].specular;
     const double on = specular ? 1.0 : density_on(path, i, false);
     const double back = specular ? 1.0 / path.refractions[i] : density_on(path, i, true);
     traced.eye_leaves[i] =
-        depart(counts, traced.eye[i], {-path.direction(i - 1), on, back}, SubPath::eye, first_from_eye(path, i));
+        depart(counts, traced.eye[i], -path.direction(i - 1), {on, back}, SubPath::eye, first_from_eye(path, i));
   }
   return traced;
 }
 
 /// As photons around rays from the camera have it.
 double share_along_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, size_t i) {
-  const Junction& at = path.junctions[i];
+  const Junction& at = path.vertices[i];
   const double sigma_t = mean_channel(at.sigma_t);
   PhotonLeaf leaf;
   leaf.set(0, {path.points[i], path.direction(i - 1), Rgb(1.0f),
-               behind_merge(counts, traced.light[i].sums).over(1.0 / behind_scale(counts, sigma_t)),
-               passing(at.sigma_t, path.leg(i - 1))});
+               traced.light[i].behind.over(1.0 / behind_scale(counts, sigma_t)), passing(at.sigma_t, path.leg(i - 1))});
   const Departure& eye = traced.eye_leaves[i + 1];
   const double to_eye = path.leg(i).distance;
   PhotonsBesideRays beside{};
@@ -79,7 +86,7 @@ double share_along_ray(const WholePath& path, const TechniqueCounts& counts, con
 
 /// As beams that rays from the camera cross have it.
 double share_across_ray(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, size_t i) {
-  const Junction& at = path.junctions[i];
+  const Junction& at = path.vertices[i];
   const Rgb &flown = path.transmittances[i - 1], &seen = path.transmittances[i];
   const FlightTerms flight = flight_terms(counts, traced.light_leaves[i - 1], Rgb(1.0f), path.points[i - 1]);
   const auto distance = static_cast<float>(path.leg(i - 1).distance);
@@ -102,31 +109,27 @@ double share_across_ray(const WholePath& path, const TechniqueCounts& counts, co
 double share_of(const WholePath& path, const TechniqueCounts& counts, const SubPaths& traced, const Found& found) {
   using By = Found::By;
   const size_t i = found.at, k = path.last();
-  if (found.by == By::splat)
-    return share_of_splat(counts, arrive(counts, traced.light_leaves[i], path.leg(i), {}, path.points[k]),
-                          path.camera_density);
+  const auto behind = [&](const Departure& from, size_t to) {
+    return techniques_behind(counts, from, path.leg(i), path.vertices[to], path.points[to]);
+  };
+  if (found.by == By::splat) return share_of_splat(counts, behind(traced.light_leaves[i], k), path.camera_density);
   if (found.by == By::run_into || found.by == By::sampled || found.by == By::connected) {
-    const SubPathSums at_eye =
-        arrive(counts, traced.light_leaves[i], path.leg(i), path.junctions[i + 1], path.points[i + 1]);
-    const SubPathSums at_light =
-        arrive(counts, traced.eye_leaves[i + 1], path.leg(i), path.junctions[i], path.points[i]);
-    const ConnectionShares shares =
-        shares_of_connection(counts, traced.light_leaves[i], at_eye, traced.eye_leaves[i + 1], at_light);
-    return found.by == By::run_into ? shares.run_into : shares.connected;
+    const Departure &light = traced.light_leaves[i], &eye = traced.eye_leaves[i + 1];
+    const Behind at_eye = behind(light, i + 1), at_light = behind(eye, i);
+    return found.by == By::run_into ? share_of_running_into(counts, light, at_eye, eye, at_light)
+                                    : share_of_connection(counts, light, at_eye, eye, at_light);
   }
   if (found.by == By::points_2d) return share_along_ray(path, counts, traced, i);
   if (found.by == By::short_beams) return share_across_ray(path, counts, traced, i);
-  const Junction& at = path.junctions[i];
-  const SubPathSums &light = traced.light[i].sums, &eye = traced.eye[i].sums;
-  const bool first = first_from_eye(path, i);
+  const Junction& at = path.vertices[i];
+  const bool first = first_from_eye(path, i), on_surface = at.kind == Junction::Kind::surface;
   const double sine = sine_between(path.direction(i - 1), path.direction(i));
-  const MergeTerms terms =
-      at.kind == Junction::Kind::surface
-          ? merges_on_surface(counts, first)
-          : merges_in_medium(counts, at, passing(at.sigma_t, path.leg(i - 1)), path.leg(i), sine, first);
-  const double all = all_at_merge(counts, terms, behind_merge(counts, light), density_on(path, i, false),
-                                  behind_merge(counts, eye), density_on(path, i, true));
-  return (found.by == By::surface ? terms.surface : terms.points_3d) / all;
+  const double merges =
+      on_surface ? merges_on_surface(counts, first)
+                 : merges_in_medium(counts, at, passing(at.sigma_t, path.leg(i - 1)), path.leg(i), sine, first);
+  const double all = all_at_merge(counts, merges, traced.light[i].behind, density_on(path, i, false),
+                                  traced.eye[i].behind, density_on(path, i, true));
+  return (on_surface ? merges : points_3d_merged(counts, at, first)) / all;
 }
 
 TechniqueCounts random_counts(Rng& rng, Heuristic heuristic) {

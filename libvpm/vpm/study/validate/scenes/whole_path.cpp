@@ -16,7 +16,7 @@ double mean_of(const Rgb& c) { return (double{c.r} + c.g + c.b) / 3.0; }
 
 /// What the density of a direction is times for that of vertex `at`, over the leg between points i and i + 1.
 double spread(const WholePath& path, size_t at, size_t i) {
-  const Junction& junction = path.junctions[at];
+  const Junction& junction = path.vertices[at];
   const Rgb& t = path.transmittances[i];
   const double per_square = 1.0 / path.square(i);
   if (junction.kind == Junction::Kind::surface)
@@ -25,7 +25,7 @@ double spread(const WholePath& path, size_t at, size_t i) {
   return mean_of(t) * per_square;
 }
 
-bool is_free(const WholePath& path, size_t i) { return path.junctions[i].kind == Junction::Kind::free; }
+bool is_free(const WholePath& path, size_t i) { return path.vertices[i].kind == Junction::Kind::free; }
 
 }  // namespace
 
@@ -36,7 +36,6 @@ WholePath random_path(Rng& rng, int events) {
   for (int i = 0; i <= events; ++i) path.transmittances.push_back(random_colour(rng, 0.01f, 1.0f));
   const size_t n = path.points.size();
   path.vertices.resize(n);
-  path.junctions.resize(n);
   path.phases.resize(n);
   path.refractions.resize(n, 1.0);
   const Vec3 out = path.direction(0);
@@ -46,9 +45,9 @@ WholePath random_path(Rng& rng, int events) {
   } else {
     const float radius = 0.2f + rng.uniform();
     path.light = DiscLight{path.points[0], normal, radius, Rgb(1.0f)};
-    path.junctions[0] = {Junction::Kind::surface, normal};
+    path.vertices[0].set_junction({Junction::Kind::surface, normal});
   }
-  path.junctions[0].light = true;
+  path.vertices[0].light = true;
   for (size_t i = 1; i + 1 < n; ++i) {
     PathVertex& vertex = path.vertices[i];
     const Vec3 in = path.direction(i - 1), on = path.direction(i);
@@ -64,12 +63,12 @@ WholePath random_path(Rng& rng, int events) {
       vertex.hit.normal = vertex.hit.shading_normal =
           glm::normalize(on - in + 0.2f * glm::length(on - in) * uniform_sphere(rng.uniform2()));
       vertex.material = Phong{Rgb(0.4f), Rgb(0.5f), 4.0f};
-      path.junctions[i] = {Junction::Kind::surface, vertex.hit.normal};
+      vertex.set_junction({Junction::Kind::surface, vertex.hit.normal});
     } else {
       vertex.density = 1.0f;
       path.phases[i] = HenyeyGreenstein{rng.uniform() * 1.6f - 0.8f};
-      path.junctions[i] = {Junction::Kind::medium, Vec3(0.0f), random_colour(rng, 0.1f, 3.0f)};
-      if (rng.uniform() < 0.5f) path.junctions[i].kept = 1.0 + 4.0 * rng.uniform_double();
+      vertex.set_junction({Junction::Kind::medium, Vec3(0.0f), random_colour(rng, 0.1f, 3.0f)});
+      if (rng.uniform() < 0.5f) vertex.kept = 1.0 + 4.0 * rng.uniform_double();
     }
   }
   return path;
@@ -124,10 +123,10 @@ std::vector<Found> all_densities(const WholePath& path, const TechniqueCounts& c
   for (size_t i = 1; i + 1 < k; ++i)
     if (!is_free(path, i) && !is_free(path, i + 1) && eye_reaches(i + 1))
       add(By::connected, i, counts.connections * product(i + 1, i + 1));
-  const bool straight_to_eye = k == 2 && path.junctions[1].kind == Junction::Kind::surface && counts.light;
+  const bool straight_to_eye = k == 2 && path.vertices[1].kind == Junction::Kind::surface && counts.light;
   if (!is_free(path, k - 1) && !straight_to_eye) add(By::splat, k - 1, counts.splats * product(k, k));
   for (size_t i = 1; i < k; ++i) {
-    const Junction& at = path.junctions[i];
+    const Junction& at = path.vertices[i];
     const double merged = product(i + 1, i);
     const bool first = first_from_eye(path, i);
     if (!eye_reaches(i)) continue;

@@ -12,8 +12,7 @@ namespace vpm {
 /// A path from a light, vertex 0, to a camera, the last vertex, through any media.
 struct WholePath {
   std::vector<Vec3> points;
-  std::vector<PathVertex> vertices;  // of the path between its ends, numbered as the points
-  std::vector<Junction> junctions;   // likewise; of the light, too
+  std::vector<PathVertex> vertices;  // numbered as the points; of the light and the camera, junctions alone
   std::vector<Rgb> transmittances;   // [i]: from point i to point i + 1
   std::vector<Phase> phases;         // of the vertices in media
   std::vector<double> refractions;   // of specular vertices: (n before / n behind)^2 along the light
