@@ -28,7 +28,7 @@ MarchedMean marched_light(const Scene& scene, const VolumeSettings& settings, co
   for (int i = 0; i < marches; ++i) {
     Rng rng(5, rng_stream(RngUse::test, 1), static_cast<uint64_t>(i));
     EyeWork work{rng, counters, scratch};
-    const EyeSegment segment(scene, {Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, interval, 0, Rgb(1.0f), {});
+    const EyeSegment segment(scene, {{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, interval, 0}, {});
     const Rgbd light(estimator.along(segment, work).value);
     sum += light;
     squares += light * light;

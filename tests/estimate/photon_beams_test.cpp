@@ -41,7 +41,7 @@ struct Crossed {
     estimator.build(1, statistics);
     Rng rng(1, 0, 0);
     EyeWork work{rng, counters, scratch};
-    const EyeSegment segment(scene, {Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 2.0f}, 0, Rgb(1.0f), {});
+    const EyeSegment segment(scene, {{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 2.0f}, 0}, {});
     return estimator.along(segment, work).value;
   }
 };

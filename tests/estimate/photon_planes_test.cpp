@@ -55,7 +55,7 @@ Rgb light_of(const Scene& scene, const PhotonPlane* plane, bool alone, const std
   EyeScratch scratch;
   Rng rng(1, 0, 0);
   EyeWork work{rng, counters, scratch};
-  const EyeSegment segment(scene, {Vec3(0.0f), kEye}, {0.0f, 2.0f}, 0, Rgb(1.0f), {});
+  const EyeSegment segment(scene, {{Vec3(0.0f), kEye}, {0.0f, 2.0f}, 0}, {});
   return estimator.along(segment, work).value;
 }
 

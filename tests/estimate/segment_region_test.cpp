@@ -34,7 +34,7 @@ EyeSegment segment_through(const Scene& scene, const Ray& ray) {
   const Hit in = scene.geometry.intersect(ray).value();
   const Ray inside{leave_surface(in, ray.direction), ray.direction};
   const Hit out = scene.geometry.intersect(inside).value();
-  return {scene, inside, {0.0f, out.t}, 0, Rgb(1.0f), {-in.normal, -out.normal}};
+  return {scene, {inside, {0.0f, out.t}, 0}, {-in.normal, -out.normal}};
 }
 
 // Through a slab all lines parallel to the ray are alike: nothing is to be corrected, and light of a place passes as
@@ -121,7 +121,7 @@ TEST(SegmentRegion, AFloorBesideTheRayIsAPlane) {
   add_shape(scene, quad_mesh(Vec3(-5, 0, 5), Vec3(10, 0, 0), Vec3(0, 0, -10)), Lambertian{Rgb(0.5f)});
   finish_lit(scene);
   const Ray ray{Vec3(-2.0f, 1e-3f, 0.0f), Vec3(1.0f, 0.0f, 0.0f)};
-  const EyeSegment segment(scene, ray, {0.0f, 4.0f}, 0, Rgb(1.0f), {Vec3(0.0f), Vec3(-1.0f, 0.0f, 0.0f)});
+  const EyeSegment segment(scene, {ray, {0.0f, 4.0f}, 0}, {Vec3(0.0f), Vec3(-1.0f, 0.0f, 0.0f)});
   const SegmentRegion region(segment, kDiscs, Spread::discs);
   EXPECT_FALSE(region.whole());
   EXPECT_TRUE(region.within().hold(Vec3(1.0f, 0.1f, 0.0f)));
@@ -162,7 +162,7 @@ TEST(SegmentRegion, ABallBesideTheRayTakesItsChordsAway) {
       add_shape(scene, SphereShape{Vec3(0.0f), kBall}, Lambertian{Rgb(0.5f)});
     finish_lit(scene);
     const Ray ray{Vec3(kClosest, 0.0f, 0.5f * kLength + 0.1f), Vec3(0.0f, 0.0f, -1.0f)};
-    const EyeSegment segment(scene, ray, {0.0f, kLength}, 0, Rgb(1.0f), {});
+    const EyeSegment segment(scene, {ray, {0.0f, kLength}, 0}, {});
     const SegmentRegion region(segment, kDiscs, Spread::discs);
     EXPECT_FALSE(region.whole());
     Rng rng(1, 0, 0);

@@ -102,7 +102,7 @@ TEST(BeamRecorder, KnowsTheCollisionThatAFlightBeganAt) {
   const PathState state;
   const Event event;
   const Turn turn{Vec3(0.6f, 0.0f, 0.8f), 0, 2.0f}, none;
-  const Track track{{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, 0, 0.5f, 1.0f, Rgb(2.0f)};
+  const Track track{{{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 0.5f}, 0, Rgb(2.0f)}, 1.0f};
   Rng rng(1, rng_stream(RngUse::test, 24), 0);
   for (BeamRecorder* recorder : {&with, &without})
     for (const Turn* each : {&turn, &none}) recorder->flew(track, {0, state, event, false, false, false, *each}, rng);

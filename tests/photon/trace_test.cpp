@@ -168,7 +168,7 @@ class Notes : public PhotonRecorder {
     track = collided_ = 0.0;
   }
   void flew(const Track& flown, const ArrivingPhoton&, Rng&) override {
-    double t0 = 0.0, t1 = flown.length;
+    double t0 = 0.0, t1 = flown.interval.t1;
     clip_to_box(Vec3d(flown.ray.origin), Vec3d(flown.ray.direction), Vec3d(box_.lo), Vec3d(box_.hi), t0, t1);
     if (t1 > t0) track += flown.throughput.g * (t1 - t0);
   }

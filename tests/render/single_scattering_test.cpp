@@ -22,25 +22,20 @@ const Rgb kChromatic(0.5f, 1.5f, 4.0f);
 
 std::shared_ptr<const TransmittanceEstimator> exact_transmittance() { return make_transmittance_estimator({}); }
 
-/// What a light ray through a scene's first medium is estimated to bring, of what stands before it.
-struct Stretch {
-  Ray ray;
-  Interval interval;
-  Rgb throughput{1.0f};
-};
-Rgb found_along(const VolumeEstimator& estimator, const Scene& scene, const Stretch& s, Rng& rng,
+/// What a ray is estimated to bring along a segment.
+Rgb found_along(const VolumeEstimator& estimator, const Scene& scene, const Segment& segment, Rng& rng,
                 EyeCounters& counters) {
   EyeScratch scratch;
   EyeWork work{rng, counters, scratch};
-  return estimator.along(EyeSegment(scene, s.ray, s.interval, 0, s.throughput, {}), work).value;
+  return estimator.along(EyeSegment(scene, segment, {}), work).value;
 }
 
 /// The radiance of each channel over many estimates.
-std::vector<Moments> estimates(const Scene& scene, const VolumeEstimator& estimator, const Stretch& stretch,
+std::vector<Moments> estimates(const Scene& scene, const VolumeEstimator& estimator, const Segment& segment,
                                uint64_t count, uint64_t seed) {
   return sample_moments(3, count, seed, [&](Rng& rng, double* out) {
     EyeCounters counters;
-    const Rgb radiance = found_along(estimator, scene, stretch, rng, counters);
+    const Rgb radiance = found_along(estimator, scene, segment, rng, counters);
     for (int c = 0; c < 3; ++c) out[c] = radiance[c];
   });
 }
@@ -138,8 +133,8 @@ TEST(SingleScattering, NothingScattersWithoutDensityOrThroughput) {
   EyeCounters counters;
   const Ray ray{Vec3(0.0f, 0.3f, -0.9f), Vec3(0, 0, 1)};
   const Interval interval{0.0f, 1.0f};
-  EXPECT_EQ(found_along(equiangular(void_, 8), void_, {ray, interval}, rng, counters), Rgb(0.0f));
-  EXPECT_EQ(found_along(equiangular(fog, 8), fog, {ray, interval, Rgb(0.0f)}, rng, counters), Rgb(0.0f));
+  EXPECT_EQ(found_along(equiangular(void_, 8), void_, {ray, interval, 0}, rng, counters), Rgb(0.0f));
+  EXPECT_EQ(found_along(equiangular(fog, 8), fog, {ray, interval, 0, Rgb(0.0f)}, rng, counters), Rgb(0.0f));
   EXPECT_EQ(counters.shadow_rays, 0u);
 }
 
@@ -172,11 +167,11 @@ TEST(SingleScattering, StaysBoundedBesideALamp) {
 /// Segments through the box [-1, 1]^3, and the box with a medium in it.
 void expect_as_marched(const Medium& medium, const std::vector<Light>& lights, const std::string& what) {
   const Scene scene = boxed_medium(medium, lights);
-  for (const Stretch& stretch :
-       {Stretch{{Vec3(-0.9f, 0.4f, -0.8f), glm::normalize(Vec3(1.0f, 0.2f, 0.9f))}, {0.0f, 2.0f}},
-        Stretch{{Vec3(0.3f, -0.9f, 0.2f), Vec3(0, 1, 0)}, {0.0f, 1.8f}, Rgb(0.5f, 1.0f, 2.0f)}})
-    expect_same_means(estimates(scene, equiangular(scene, 2), stretch, 8'000, 1),
-                      estimates(scene, marched(scene, 0.1f), stretch, 1'000, 2), kFalseAlarms, what);
+  for (const Segment& segment :
+       {Segment{{Vec3(-0.9f, 0.4f, -0.8f), glm::normalize(Vec3(1.0f, 0.2f, 0.9f))}, {0.0f, 2.0f}, 0},
+        Segment{{Vec3(0.3f, -0.9f, 0.2f), Vec3(0, 1, 0)}, {0.0f, 1.8f}, 0, Rgb(0.5f, 1.0f, 2.0f)}})
+    expect_same_means(estimates(scene, equiangular(scene, 2), segment, 8'000, 1),
+                      estimates(scene, marched(scene, 0.1f), segment, 1'000, 2), kFalseAlarms, what);
 }
 
 TEST(SingleScattering, IsAsMarchedUnderEveryLight) {

@@ -13,7 +13,7 @@ const DensityIntegralsAlong& EyeSegment::integrals(EyeWork& work) const {
   DensityIntegralsAlong& integrals = work.scratch.integrals;
   const EyeSegment*& walked_last = work.scratch.integrals_of;  // others may have walked since
   if (walked_ && walked_last == this) return integrals;
-  count(work.counters.walk.lookups, integrals.walk(medium(), ray, interval));
+  count(work.counters.walk.lookups, integrals.walk(around(), ray, interval));
   walked_ = true;
   walked_last = this;
   integral_ = integrals.integral();
@@ -21,9 +21,9 @@ const DensityIntegralsAlong& EyeSegment::integrals(EyeWork& work) const {
 }
 
 Rgb EyeSegment::transmittance(EyeWork& work) const {
-  if (!medium()) return Rgb(1.0f);
-  if (!integral_) integral_ = counted_density_integral(*medium(), ray, interval, work.counters.walk);
-  return vpm::transmittance(*medium(), *integral_);
+  if (!around()) return Rgb(1.0f);
+  if (!integral_) integral_ = counted_density_integral(*around(), ray, interval, work.counters.walk);
+  return vpm::transmittance(*around(), *integral_);
 }
 
 }  // namespace vpm

@@ -5,7 +5,7 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/estimate/eye_work.h"
-#include "vpm/scene/scene.h"
+#include "vpm/path/segment.h"
 
 namespace vpm {
 
@@ -26,16 +26,14 @@ struct Borders {
   Vec3 start{0.0f}, end{0.0f};
 };
 
-/// Lies in one medium. Its density integrals, counted from its start, are computed once, however many estimators ask
-/// for them.
-class EyeSegment {
+/// Its density integrals, counted from its start, are computed once, however many estimators ask for them.
+class EyeSegment : public Segment {
  public:
-  EyeSegment(const Scene& scene_of_ray, const Ray& along, const Interval& from_to, MediumId in, const Rgb& counts_for,
-             const Borders& at)
-      : scene(scene_of_ray), ray(along), interval(from_to), number(in), throughput(counts_for), borders(at) {}
+  EyeSegment(const Scene& scene_of_ray, const Segment& segment, const Borders& at)
+      : Segment(segment), scene(scene_of_ray), borders(at) {}
 
-  /// Null in vacuum.
-  const Medium* medium() const { return number == kVacuum ? nullptr : &scene.media[number]; }
+  /// The medium around it; null in vacuum.
+  const Medium* around() const { return medium == kVacuum ? nullptr : &scene.media[medium]; }
   /// The density integrals at all places of the segment.
   const DensityIntegralsAlong& integrals(EyeWork& work) const;
   /// Takes the density integral of the whole segment, m, from an estimator that has walked along it by itself.
@@ -44,10 +42,6 @@ class EyeSegment {
   Rgb transmittance(EyeWork& work) const;
 
   const Scene& scene;
-  const Ray ray;
-  const Interval interval;  // m
-  const MediumId number;    // the number of the medium
-  const Rgb throughput;     // of the eye path up to the near end of the segment
   const Borders borders;
 
  private:

@@ -141,7 +141,7 @@ SegmentRegion::SegmentRegion(const EyeSegment& segment, const GatherSettings& ga
       radius_(gather.radius),
       reach_(segment.interval),
       anchor_(segment.interval.t0),
-      thickness_(thickness_of(spread, segment.medium()->phase)) {
+      thickness_(thickness_of(spread, segment.around()->phase)) {
   if (gather.boundary == BoundaryRule::none) return;
   const auto [t0, t1] = segment.interval;
   const Vec3 w = segment.ray.direction;
@@ -232,7 +232,7 @@ bool SegmentRegion::walk(Ray ray, float length, Inside& in, Visit&& visit) const
   for (int i = 0; i <= kMostHits && length > begun; ++i) {
     const std::optional<Hit> hit = i < kMostHits ? scene.geometry.intersect(ray, length - begun) : std::optional<Hit>();
     const float end = hit ? begun + hit->t : length;
-    if (in.medium == segment_.number && in.solid < 0) visit(begun, end);
+    if (in.medium == segment_.medium && in.solid < 0) visit(begun, end);
     if (!hit) break;
     const Shape& shape = scene.shapes[hit->shape];
     const bool opaque = !is_boundary(scene.material_of(*hit)) && !is_dielectric(scene.material_of(*hit));
@@ -275,7 +275,7 @@ Rgbd SegmentRegion::seen_of_line(const Vec3& aside, float ahead, float radius, c
   const bool at_anchor = anchor_ > beside.t0 && anchor_ < beside.t1;
   const float middle = std::isinf(beside.t1) ? beside.t0 + radius : 0.5f * (beside.t0 + beside.t1);
   const float from = at_anchor ? anchor_ : middle;  // not on a border
-  Inside there{segment_.number};                    // at the line's place beside the ray's
+  Inside there{segment_.medium};                    // at the line's place beside the ray's
   const float distance = glm::length(aside);
   if ((near_ || !at_anchor) && !walk({segment_.ray.at(from), aside / distance}, distance, there, [](float, float) {}))
     return sum;

@@ -9,27 +9,27 @@
 
 #include "vpm/base/overloads.h"
 #include "vpm/path/both_sides.h"
-#include "vpm/path/stretches.h"
+#include "vpm/path/segments.h"
 #include "vpm/surface/material/fresnel.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
 namespace {
 
-/// The visitor of a ray's stretches.
+/// The visitor of a ray's segments.
 struct Passing {
   const Scene& scene;
   const Ray& ray;
   const MediumId& number;
   Passage& passage;
 
-  bool pass(const Stretch& stretch) {
+  bool pass(float length, const Encounter&) {
     if (number == kVacuum) return true;
     const Medium& medium = scene.media[number];
-    const double integral = density_integral(medium, ray, {0.0f, stretch.length}).value;
+    const double integral = density_integral(medium, ray, {0.0f, length}).value;
     const Rgb albedo = medium.albedo();
     for (int c = 0; c < 3; ++c) {
-      if (medium.sigma_t[c] == 0.0f) continue;  // also of an endless stretch
+      if (medium.sigma_t[c] == 0.0f) continue;  // also of an endless segment
       const double optical = double{medium.sigma_t[c]} * integral;
       const double lost = passage.transmittance[c] * -std::expm1(-optical);
       passage.lost[c] += lost;
@@ -95,7 +95,7 @@ Rgbd albedo_after(const Scene& scene, const Passage& passage, const Sight& at) {
 Passage pass_media(const Scene& scene, Ray& ray, MediumId& medium) {
   Passage passage;
   WalkCounters uncounted;  // the report counts what estimates of light do
-  passage.surface = each_stretch(scene, ray, medium, kInfinity, uncounted, Passing{scene, ray, medium, passage});
+  passage.surface = each_segment(scene, ray, medium, kInfinity, uncounted, Passing{scene, ray, medium, passage});
   return passage;
 }
 

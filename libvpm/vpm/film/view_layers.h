@@ -22,7 +22,7 @@ struct Passage {
   Rgbd scattered{0.0};         // the part of `lost` that is scattered, not absorbed
 };
 /// Takes a ray that starts in `medium` straight on to the first surface, by exact density integrals. The ray and
-/// `medium` become those of the last stretch.
+/// `medium` become those of the last segment.
 Passage pass_media(const Scene& scene, Ray& ray, MediumId& medium);
 
 struct View {

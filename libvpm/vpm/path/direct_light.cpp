@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "vpm/base/counters.h"
-#include "vpm/path/stretches.h"
+#include "vpm/path/segments.h"
 
 namespace vpm {
 namespace {
@@ -20,15 +20,15 @@ struct ShadowRay {
   Vec3 target;     // m
   Rgb transmittance{1.0f};
 
-  bool pass(const Stretch& stretch) {
+  bool pass(float length, const Encounter& met) {
     if (medium != kVacuum) {
       const Medium& around = rays.scene.media[medium];
-      const TransmittanceEstimate t = rays.transmittance.estimate(around, ray, {0.0f, stretch.length}, rays.rng);
+      const TransmittanceEstimate t = rays.transmittance.estimate(around, ray, {0.0f, length}, rays.rng);
       count(rays.counters.lookups, t.lookups);
       count(rays.counters.bricks, t.bricks);
       transmittance *= t.value;
     }
-    return stretch.met && !is_black(transmittance) && !is_target(stretch.met.hits[0]);
+    return met && !is_black(transmittance) && !is_target(met.hits[0]);
   }
   bool is_target(const Hit& hit) const {
     const bool looked_for =
@@ -45,7 +45,7 @@ struct ShadowRay {
 
 Rgb transmittance_to_target(ShadowRay shadow) {
   const bool blocked =
-      each_stretch(shadow.rays.scene, shadow.ray, shadow.medium, shadow.distance, shadow.rays.counters, shadow)
+      each_segment(shadow.rays.scene, shadow.ray, shadow.medium, shadow.distance, shadow.rays.counters, shadow)
           .has_value();
   return blocked ? Rgb(0.0f) : shadow.transmittance;
 }

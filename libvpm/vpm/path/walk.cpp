@@ -4,7 +4,7 @@
 #include "vpm/base/cancel.h"
 #include "vpm/base/counters.h"
 #include "vpm/medium/distance/mixture.h"
-#include "vpm/path/stretches.h"
+#include "vpm/path/segments.h"
 #include "vpm/surface/shading.h"
 
 namespace vpm {
@@ -20,10 +20,10 @@ struct Flying {
   std::vector<Track>* tracks;
   Event& event;
 
-  bool pass(const Stretch& stretch) {
-    if (state.medium != kVacuum && collides_within(stretch.length)) return false;
-    if (!stretch.met && stretch.length < kInfinity) {
-      state.ray.origin = state.ray.at(stretch.length);
+  bool pass(float length, const Encounter& met) {
+    if (state.medium != kVacuum && collides_within(length)) return false;
+    if (!met && length < kInfinity) {
+      state.ray.origin = state.ray.at(length);
       event.kind = EventKind::limit;
     }
     return true;
@@ -36,7 +36,8 @@ struct Flying {
     count(counters.bricks, flight.bricks);
     count(counters.null_collisions, flight.null_collisions);
     counters.majorant_violations += flight.majorant_violations;
-    if (tracks) tracks->push_back({state.ray, state.medium, flight.t, length, state.throughput, flight.integral});
+    if (tracks)
+      tracks->push_back({{state.ray, {0.0f, flight.t}, state.medium, state.throughput}, length, flight.integral});
     state.throughput *= flight.weight;
     if (!flight.collided) return false;
     state.ray.origin = state.ray.at(flight.t);
@@ -72,7 +73,7 @@ Event next_event(const Scene& scene, const DistanceStrategy& strategy, PathState
                  WalkCounters& counters, float limit, std::vector<Track>* tracks) {
   Event event;
   Flying flying{scene, strategy, state, rng, counters, tracks, event};
-  const std::optional<Hit> surface = each_stretch(scene, state.ray, state.medium, limit, counters, flying);
+  const std::optional<Hit> surface = each_segment(scene, state.ray, state.medium, limit, counters, flying);
   if (!surface) return event;
   state.ray.origin = surface->position;
   event.kind = EventKind::surface;

@@ -6,7 +6,7 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/medium/distance/strategy.h"
-#include "vpm/scene/scene.h"
+#include "vpm/path/segment.h"
 
 namespace vpm {
 
@@ -17,13 +17,9 @@ struct PathState {
   Rgb throughput{1.0f};  // of a path from the eye: dimensionless; of a photon: its power, W
 };
 
-/// The part of a flight that leads through one medium.
-struct Track {
-  Ray ray;
-  MediumId medium = kVacuum;
-  float length = 0.0f;          // m from the ray's origin, to the event or to where the medium ends
-  float reach = 0.0f;           // m, to where the medium ends or the flight would have been cut
-  Rgb throughput{1.0f};         // of the path at the ray's origin
+/// The part of a flight that leads through one medium: from the ray's origin to the event, or to where the medium ends.
+struct Track : Segment {
+  float reach = 0.0f;           // m from the ray's origin, to where the medium ends or the flight would have been cut
   double integral = kNotKnown;  // Flight::integral
 };
 

@@ -12,7 +12,7 @@ void BeamRecorder::join(PhotonRecorder& part) {
 }
 
 void BeamRecorder::flew(const Track& track, const ArrivingPhoton& photon, Rng&) {
-  const float length = more_.long_beams ? track.reach : track.length;
+  const float length = more_.long_beams ? track.reach : track.interval.t1;
   if (!scene_.media[track.medium].scatters() || !filter_(photon) || !(length > 0.0f)) return;
   PhotonBeam beam{track.ray.origin, length, track.ray.direction, track.throughput, {}, 0.0f};
   if (more_.turns && photon.turn) {

@@ -26,8 +26,8 @@ void visit_thin_places(const Medium& medium, const Track& track, const ThinParts
   const float floor = floor_in(medium, thin.density_floor);
   const double spacing = 1.0 / (double{floor} * max_channel(medium.majorant()));  // m
   const double first = rng.uniform_double() * spacing;                            // m
-  if (!(first < track.length)) return;
-  medium.visit_majorants(track.ray, {0.0f, track.length}, [&](const DensityStretch& stretch) {
+  if (!(first < track.interval.t1)) return;
+  medium.visit_majorants(track.ray, track.interval, [&](const DensityStretch& stretch) {
     if (relative_density(medium, stretch.min) >= floor) return true;
     for (double i = std::ceil((stretch.t0 - first) / spacing); first + i * spacing < stretch.t1; ++i) {
       cancellation_point();

@@ -49,10 +49,10 @@ double EyeSubPath::density_of(const Ray& ray) const {
 
 // --- Flights
 
-bool EyeSubPath::Along::pass(const Stretch& stretch) {
+bool EyeSubPath::Along::pass(float length, const Encounter&) {
   if (medium == kVacuum) return true;
   const Medium& around = path.c_.scene.media[medium];
-  const Interval interval{0.0f, stretch.length};
+  const Interval interval{0.0f, length};
   DensityIntegralsAlong& integrals = path.work_.scratch.integrals;
   count(path.work_.counters.walk.lookups, integrals.walk(&around, ray, interval));
   if (around.scatters() && path.at_.asks > 0.0f) {
@@ -65,7 +65,7 @@ bool EyeSubPath::Along::pass(const Stretch& stretch) {
 
 std::optional<PathVertex> EyeSubPath::pass_through() {
   Along along{*this, at_.state.ray, at_.state.medium};
-  const std::optional<Hit> hit = each_stretch(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
+  const std::optional<Hit> hit = each_segment(c_.scene, along.ray, along.medium, kInfinity, work_.counters.walk, along);
   if (along.through_scattering) branch_off();
   at_.state.throughput *= along.passed;
   if (is_black(at_.state.throughput)) return std::nullopt;
@@ -191,13 +191,10 @@ void EyeSubPath::add_merged(Technique technique, const Rgb& found, const KernelP
 void EyeSubPath::merge_along_ray(const Along& along, const Interval& interval) {
   const Departure& from = at_.from;
   assert(from.behind == 0.0);  // nothing but the camera can be connected to, and not over mirrors or glass
-  const MergeSegment segment{along.ray,
-                             interval,
-                             along.medium,
+  const MergeSegment segment{{along.ray, interval, along.medium, asked()},
                              along.passed,
                              glm::distance(from.point, along.ray.origin),
                              from.adjacent > 0.0 ? from.adjacent / from.forward : 0.0,
-                             asked(),
                              number_};
   if (left_out_ && from.camera && c_.scene.media[along.medium].homogeneous()) return left_out_->push_back(segment);
   for (const Technique technique : kRayTechniques) {

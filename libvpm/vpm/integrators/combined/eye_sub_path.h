@@ -8,7 +8,7 @@
 #include "vpm/integrators/combined/combined.h"
 #include "vpm/path/both_sides.h"
 #include "vpm/path/direct_light.h"
-#include "vpm/path/stretches.h"
+#include "vpm/path/segments.h"
 
 namespace vpm {
 
@@ -39,10 +39,10 @@ class EyeSubPath {
     EyeSubPath& path;
     Ray ray;
     MediumId medium;
-    Rgb passed{1.0f};  // from the last vertex to the start of the stretch
+    Rgb passed{1.0f};  // from the last vertex to the start of the segment
     bool through_scattering = false;
 
-    bool pass(const Stretch& stretch);
+    bool pass(float length, const Encounter&);
   };
 
   void follow_branch();

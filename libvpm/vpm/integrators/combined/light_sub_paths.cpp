@@ -64,7 +64,7 @@ class LightSubPath {
     Rgb passed(1.0f);
     for (const Track& track : tracks_) {
       const Medium& medium = c_.scene.media[track.medium];
-      if (c_.counts.short_beams > 0.0 && medium.scatters() && track.length > 0.0f) keep(track, passed);
+      if (c_.counts.short_beams > 0.0 && medium.scatters() && track.interval.t1 > 0.0f) keep(track, passed);
       keep_thin_photons(track, medium, passed);
       passed *= transmittance(medium, integral_along(medium, track, out_.ledger.walk));
     }
@@ -86,7 +86,7 @@ class LightSubPath {
   /// Keeps a part of a flight as a beam.
   void keep(const Track& track, const Rgb& before) {
     const auto& [origin, direction] = track.ray;
-    out_.flights.beams[track.medium].push_back({origin, track.length, direction, track.throughput});
+    out_.flights.beams[track.medium].push_back({origin, track.interval.t1, direction, track.throughput});
     out_.flights.flights[track.medium].push_back(flight_terms(c_.counts, from_, before, origin));
   }
 

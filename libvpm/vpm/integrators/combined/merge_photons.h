@@ -13,7 +13,7 @@ struct MergePhoton {
   Vec3 point{0.0f};      // m
   Vec3 travel{0.0f};     // unit
   Rgb power{0.0f};       // W; in a medium over the density relative to its largest, see stored_power()
-  Behind behind;         // on a surface over merges_on_surface(); in a medium as it would be where the density is 1, in
+  Behind behind{};       // on a surface over merges_on_surface(); in a medium as it would be where the density is 1, in
                          // maps times behind_scale()
   double passing = 0.0;  // in a medium: of the leg that led there, m, likewise
 };

@@ -54,7 +54,7 @@ std::optional<Densities> scatter(const Scene& scene, const PathVertex& vertex, S
 
 double integral_along(const Medium& medium, const Track& track, WalkCounters& counters) {
   if (track.integral != kNotKnown) return track.integral;
-  const DensityIntegral integral = density_integral(medium, track.ray, {0.0f, track.length});
+  const DensityIntegral integral = density_integral(medium, track.ray, track.interval);
   count(counters.lookups, integral.lookups);
   return integral.value;
 }

@@ -8,16 +8,12 @@
 
 namespace vpm {
 
-/// A part of a ray in a medium that scatters, along which light sub-paths are merged. The ray comes straight from the
-/// camera, or over mirrors and glass alone.
-struct MergeSegment {
-  Ray ray;
-  Interval interval;  // the part, m from the ray's origin
-  MediumId medium = kVacuum;
-  Rgb passed{1.0f};       // the transmittance from the last vertex to the ray's origin
-  float before = 0.0f;    // from that vertex to there, m
+/// A part of a ray along which light sub-paths are merged, in a medium that scatters. The ray comes straight from the
+/// camera, or over mirrors and glass alone. The throughput is that at its last vertex.
+struct MergeSegment : Segment {
+  Rgb passed{1.0f};       // the transmittance from that vertex to the ray's origin
+  float before = 0.0f;    // from the vertex to there, m
   double adjacent = 0.0;  // Departure::adjacent over Departure::forward of the vertex
-  Rgb throughput{1.0f};   // of what is found
   size_t number = 0;      // of the ray among those that are followed together
 };
 

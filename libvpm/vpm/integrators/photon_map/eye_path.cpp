@@ -70,7 +70,7 @@ class EyePath {
     met_ = meet(c_.scene, ray, kInfinity, at_.state.medium, work_.counters.walk);
     const Interval interval{0.0f, met_ ? met_.hits[0].t : kInfinity};
     const Vec3 end = met_ ? towards(met_.hits[0], -ray.direction) : Vec3(0.0f);
-    segment_.emplace(c_.scene, ray, interval, at_.state.medium, seen(), Borders{at_.start, end});
+    segment_.emplace(c_.scene, Segment{ray, interval, at_.state.medium, seen()}, Borders{at_.start, end});
     return true;
   }
 
@@ -211,8 +211,8 @@ void gather_by_media(const EyeContext& context, const Vec3& camera, EyePaths pat
   while (!paths.empty()) {
     const EyeSegment& first = paths.all().front()->segment();
     EyePaths alike, others;
-    for (EyePath* path : paths.all()) (path->segment().number == first.number ? alike : others).add(*path);
-    if (first.medium() && first.medium()->homogeneous() && alike.all().size() > 1)
+    for (EyePath* path : paths.all()) (path->segment().medium == first.medium ? alike : others).add(*path);
+    if (first.around() && first.around()->homogeneous() && alike.all().size() > 1)
       gather_together(context, camera, alike.all());
     else
       for (EyePath* path : alike.all()) path->gather();

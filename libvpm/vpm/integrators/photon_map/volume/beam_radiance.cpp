@@ -13,7 +13,7 @@ namespace {
 /// From the photons near an interval of the ray.
 KernelEstimate gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near, const BeamMap& map,
                       VolumeForm form, const BeamBalance* balance, EyeWork& work) {
-  const Medium& medium = *segment.medium();
+  const Medium& medium = *segment.around();
   const BesideRay there(segment.ray, near, region.within(), region.distances());
   const PassToEye pass(medium, medium.homogeneous() ? nullptr : &segment.integrals(work), form, region.mirrored());
   count(work.counters.volume_queries);
@@ -73,7 +73,7 @@ void photons_beside_block(const Vec3& apex, SegmentBundle bundle, const BeamMap&
   EyeCounters& counters = bundle.front().work->counters;
   count(counters.volume_queries, lanes.searching());
   count(counters.gather.searches, lanes.searching());
-  const Medium& medium = *bundle.front().segment->medium();
+  const Medium& medium = *bundle.front().segment->around();
   const LaneTotals found = sum_beside(medium, map, lanes, balance, counters.gather);
   lanes.add(found, source_factor(medium));
 }
@@ -109,12 +109,12 @@ void BeamRadiance::build(uint64_t emitted, RenderStatistics& statistics) {
 }
 
 void BeamRadiance::along_bundle(const Vec3& apex, SegmentBundle bundle) const {
-  photons_beside_bundle(apex, bundle, maps_[bundle.front().segment->number], maps_.settings().form, nullptr);
+  photons_beside_bundle(apex, bundle, maps_[bundle.front().segment->medium], maps_.settings().form, nullptr);
 }
 
 KernelEstimate BeamRadiance::along(const EyeSegment& segment, EyeWork& work) const {
-  if (!segment.medium()) return {};
-  return photons_beside(segment, maps_[segment.number], maps_.settings().form, nullptr, work);
+  if (!segment.around()) return {};
+  return photons_beside(segment, maps_[segment.medium], maps_.settings().form, nullptr, work);
 }
 
 namespace {

@@ -22,7 +22,7 @@ class MostSeen {
         mirrored_(region.mirrored()),
         integrals_(pass.integrals()),
         apart_(radius * glm::length(distances_.slope)) {
-    const Rgb& sigma_t = segment.medium()->sigma_t;
+    const Rgb& sigma_t = segment.around()->sigma_t;
     thinnest_ = std::min({sigma_t.r, sigma_t.g, sigma_t.b});
   }
 
@@ -51,15 +51,15 @@ void BeamsAroundPoints::build(uint64_t emitted, RenderStatistics& statistics) {
 }
 
 KernelEstimate BeamsAroundPoints::along(const EyeSegment& segment, EyeWork& work) const {
-  if (!segment.medium()) return {};
-  const Map& map = beams_[segment.number];
+  if (!segment.around()) return {};
+  const Map& map = beams_[segment.medium];
   if (map.beams.size() == 0) return {};
   const float radius = map.settings.radius;
   const SegmentRegion region(segment, map.settings, Spread::turned_discs);
   const Interval reach{region.reach().t0 - radius, region.reach().t1 + radius};
   const Interval near = clip(segment.ray, reach, map.beams.bounds(), radius);
   if (near.empty()) return {};
-  const Medium& medium = *segment.medium();
+  const Medium& medium = *segment.around();
   const VolumeForm form = beams_.settings().form;
   const PassToEye pass(medium, medium.homogeneous() ? nullptr : &segment.integrals(work), form, region.mirrored());
   const KernelEstimate light =
@@ -73,7 +73,7 @@ KernelEstimate BeamsAroundPoints::march(const Sight& sight, const Interval& near
   const auto& [segment, region, pass, map] = sight;
   const float radius = map.settings.radius;
   const MostSeen most_seen(segment, region, pass, radius);
-  const float free_path = 1.0f / std::max(max_channel(segment.medium()->majorant()), 1e-30f);  // m, the shortest
+  const float free_path = 1.0f / std::max(max_channel(segment.around()->majorant()), 1e-30f);  // m, the shortest
   // As many steps as the beams' own part of the ray has: radii far larger than that ask for no more.
   const Interval among = clip(segment.ray, region.reach(), map.beams.bounds(), 0.0f);
   const float stretched = among.empty() ? kInfinity : near.length() / among.length();
@@ -88,7 +88,7 @@ KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const Sight& sight, Eye
   const SegmentRegion& region = sight.region;
   const Map& map = sight.map;
   const Ray& ray = segment.ray;
-  const Medium& medium = *segment.medium();
+  const Medium& medium = *segment.around();
   const float radius = map.settings.radius, inverse = 1.0f / (radius * radius);
   const PlaneDistances distances = region.distances();
   const Vec3 from_origin = point - ray.origin, towards_eye = -ray.direction;

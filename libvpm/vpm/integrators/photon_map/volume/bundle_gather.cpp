@@ -56,7 +56,7 @@ Interval reach_of(const Vec3& apex, SegmentBundle bundle, const Box& bounds, flo
 
 bool is_narrow(const Vec3& apex, SegmentBundle bundle, const Box& bounds, float radius, float most_radii) {
   Directions directions;
-  const float free_path = 1.0f / mean_channel(bundle.front().segment->medium()->sigma_t);
+  const float free_path = 1.0f / mean_channel(bundle.front().segment->around()->sigma_t);
   return is_narrow(directions_of(bundle, directions), reach_of(apex, bundle, bounds, radius), free_path,
                    most_radii * radius);
 }
@@ -101,7 +101,7 @@ void GatherLanes::add(const LaneTotals& found, const Rgb& factor) {
       bundle_[i].light += light;
       continue;
     }
-    const SeenAlong seen(segment.medium()->sigma_t, segment.interval, nullptr);
+    const SeenAlong seen(segment.around()->sigma_t, segment.interval, nullptr);
     bundle_[i].light += over_share(light, regions_[i]->share(radius_, seen, work.rng), work.counters.gather);
   }
 }

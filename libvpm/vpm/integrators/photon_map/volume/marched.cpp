@@ -34,9 +34,9 @@ class MarchedLight::March {
 
  private:
   void find_photons(const VolumeMaps<PhotonMap>& maps) {
-    const Box& around = maps.around(segment_.number);
+    const Box& around = maps.around(segment_.medium);
     if (around.empty()) return;
-    const PhotonMap& map = maps[segment_.number];
+    const PhotonMap& map = maps[segment_.medium];
     points_.emplace(segment_, map, around, VolumeForm::density_at_query);
     if (points_->seen_one_by_one()) return;
     among_ = points_->reach();
@@ -48,7 +48,7 @@ class MarchedLight::March {
     if (interval.empty() || is_black(throughput_)) return;
     const bool among_photons = among_.t0 <= interval.t0 && among_.t1 >= interval.t1;
     if (!among_photons && !light_.lights_)
-      return attenuate(counted_density_integral(*segment_.medium(), segment_.ray, interval, work_.counters.walk));
+      return attenuate(counted_density_integral(*segment_.around(), segment_.ray, interval, work_.counters.walk));
     const StepLimits limits = limits_of(throughput_, among_photons ? step_ : kInfinity);
     const auto add = [&](const Vec3& point, const Rgb& weight) {
       if (among_photons) add_photons(point, throughput_ * weight);
@@ -61,7 +61,7 @@ class MarchedLight::March {
   /// to the mirrored places; and corrects what photons bring.
   void finish_photons() {
     if (points_->seen_one_by_one()) {
-      const KernelEstimate light = source_factor(*segment_.medium()) * points_->march_evenly(work_);
+      const KernelEstimate light = source_factor(*segment_.around()) * points_->march_evenly(work_);
       by_photons_ += segment_.throughput * light;
     }
     if (!among_.empty()) add_past_ends();
@@ -82,7 +82,7 @@ class MarchedLight::March {
   /// segments there is little to see.
   Rgb seen_at(float t) {
     constexpr float kRouletteBelow = 0.01f;
-    const Medium& medium = *segment_.medium();
+    const Medium& medium = *segment_.around();
     const double beyond =
         counted_density_integral(medium, segment_.ray, {t, segment_.interval.t1}, work_.counters.walk);
     const Rgb seen = transmittance(medium, std::max(0.0, integral_ - beyond));
@@ -99,18 +99,18 @@ class MarchedLight::March {
   }
 
   StepLimits limits_of(const Rgb& throughput, float length) const {
-    return {length, light_.max_optical_step_, glm::greaterThan(throughput * segment_.medium()->sigma_s, Rgb(0.0f))};
+    return {length, light_.max_optical_step_, glm::greaterThan(throughput * segment_.around()->sigma_s, Rgb(0.0f))};
   }
 
   /// `seen` is the weight of the point times the throughput at the start of the march. Weights are those of densities
   /// over the largest, times that.
   void add_photons(const Vec3& point, const Rgb& seen) {
-    const Medium& medium = *segment_.medium();
+    const Medium& medium = *segment_.around();
     const KernelEstimate light = source_factor(medium) * points_->sum(point, work_);
     by_photons_ += seen / medium.max_density() * light;
   }
   void add_lights(const ScatteredOnce& lights, const Vec3& point, const Rgb& seen) {
-    const Medium& medium = *segment_.medium();
+    const Medium& medium = *segment_.around();
     const Rgb light =
         medium.sigma_s * medium.max_density() * lights.towards_eye(lights.pick(work_.rng), segment_, point, work_);
     by_lights_ += seen / medium.max_density() * light;
@@ -119,7 +119,7 @@ class MarchedLight::March {
   template <class Add>
   Marched march(const Interval& interval, const StepLimits& limits, Add&& add) {
     const Marched marched =
-        work_.scratch.marcher.march(*segment_.medium(), segment_.ray, interval, limits, work_.rng, add);
+        work_.scratch.marcher.march(*segment_.around(), segment_.ray, interval, limits, work_.rng, add);
     count(work_.counters.steps, marched.steps);
     count(work_.counters.walk.lookups, marched.lookups);
     return marched;
@@ -127,7 +127,7 @@ class MarchedLight::March {
 
   void attenuate(double integral) {
     integral_ += integral;
-    throughput_ *= transmittance(*segment_.medium(), integral);
+    throughput_ *= transmittance(*segment_.around(), integral);
   }
 
   const MarchedLight& light_;
@@ -162,7 +162,7 @@ void MarchedLight::build(uint64_t emitted, RenderStatistics& statistics) {
 }
 
 KernelEstimate MarchedLight::along(const EyeSegment& segment, EyeWork& work) const {
-  if (!segment.medium() || !segment.medium()->scatters()) return {};
+  if (!segment.around() || !segment.around()->scatters()) return {};
   return March(*this, segment, work).whole();
 }
 

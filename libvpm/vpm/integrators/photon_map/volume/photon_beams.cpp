@@ -47,10 +47,10 @@ void PhotonBeams::build_beside(float kept_planes, uint64_t emitted, RenderStatis
 }
 
 KernelEstimate PhotonBeams::along(const EyeSegment& segment, EyeWork& work) const {
-  if (!segment.medium()) return {};
-  const Map& map = beams_[segment.number];
+  if (!segment.around()) return {};
+  const Map& map = beams_[segment.medium];
   KernelEstimate light = beams_along(segment, map, work);
-  light += photons_beside(segment, collisions_[segment.number], collisions_.settings().form, &map.balance, work);
+  light += photons_beside(segment, collisions_[segment.medium], collisions_.settings().form, &map.balance, work);
   return light;
 }
 
@@ -62,7 +62,7 @@ KernelEstimate PhotonBeams::beams_along(const EyeSegment& segment, const Map& ma
 }
 
 void PhotonBeams::along_bundle(const Vec3& apex, SegmentBundle bundle) const {
-  const MediumId medium = bundle.front().segment->number;
+  const MediumId medium = bundle.front().segment->medium;
   const Map& map = beams_[medium];
   beams_along_bundle(apex, bundle, map);
   photons_beside_bundle(apex, bundle, collisions_[medium], collisions_.settings().form, &map.balance);
@@ -71,7 +71,7 @@ void PhotonBeams::along_bundle(const Vec3& apex, SegmentBundle bundle) const {
 void PhotonBeams::beams_along_bundle(const Vec3& apex, SegmentBundle bundle, const Map& map) const {
   constexpr float kMostRadii = 16.0f;  // of blocks: wide ones look at beams that few of their rays cross
   if (map.beams.size() == 0) return;
-  const Medium& medium = *bundle.front().segment->medium();
+  const Medium& medium = *bundle.front().segment->around();
   const auto one_by_one = [&](SegmentBundle some) {
     for (BundledSegment& of : some) of.light += beams_along(*of.segment, map, *of.work);
   };
@@ -124,7 +124,7 @@ size_t PhotonBeams::pass_beams(const EyeSegment& segment, const SegmentRegion& r
   pass({along, found.size}, passed, sigma_t);
   for (size_t i = 0; i < found.size; ++i) share[i] = map.balance.of_beams_over_sine(found.sine[i], sigma_t[i]);
   if (!map.begins.empty()) share_with_planes(segment.ray.direction, map, found, share);
-  multiply_by_left(*segment.medium(), beams_.settings(), segment.ray.origin, found, passed, counters);
+  multiply_by_left(*segment.around(), beams_.settings(), segment.ray.origin, found, passed, counters);
   if (region.within().hold_all(found.x, found.y, found.z, found.size)) return found.size;
   size_t within = 0;
   for (size_t i = 0; i < found.size; ++i) {
@@ -148,7 +148,7 @@ void PhotonBeams::share_with_planes(const Vec3& ray, const Map& map, const BeamC
 
 KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegion& region, const Interval& near,
                                    const Map& map, EyeWork& work) const {
-  const Medium& medium = *segment.medium();
+  const Medium& medium = *segment.around();
   const float radius = map.settings.radius, inverse = 1.0f / (radius * radius);
   const VolumeForm form = beams_.settings().form;
   const PassToEye pass(medium, medium.homogeneous() ? nullptr : &segment.integrals(work), form, region.mirrored());

@@ -38,20 +38,20 @@ void PhotonPlanes::build(uint64_t emitted, RenderStatistics& statistics) {
 }
 
 KernelEstimate PhotonPlanes::along(const EyeSegment& segment, EyeWork& work) const {
-  if (!segment.medium()) return {};
+  if (!segment.around()) return {};
   KernelEstimate light = beams_.along(segment, work);
-  if (segment.medium()->scatters()) light += planes_along(segment, work);
+  if (segment.around()->scatters()) light += planes_along(segment, work);
   return light;
 }
 
 void PhotonPlanes::along_bundle(const Vec3& apex, SegmentBundle bundle) const {
   beams_.along_bundle(apex, bundle);
   for (BundledSegment& of : bundle)
-    if (of.segment->medium()->scatters()) of.light += planes_along(*of.segment, *of.work);
+    if (of.segment->around()->scatters()) of.light += planes_along(*of.segment, *of.work);
 }
 
 Rgb PhotonPlanes::planes_along(const EyeSegment& segment, EyeWork& work) const {
-  const Medium& medium = *segment.medium();
+  const Medium& medium = *segment.around();
   const Interval interval = medium.clip(segment.ray, segment.interval);
   if (interval.empty()) return Rgb(0.0f);
   const DensityIntegralsAlong& integrals = segment.integrals(work);
@@ -88,7 +88,7 @@ Rgb PhotonPlanes::arriving(const PlaneCrossing& crossing, const EyeSegment& segm
   if (settings_.share == PlaneUse::combined) {
     const float sine = glm::length(glm::cross(plane.scattered, segment.ray.direction));
     const float sigma_s = mean_channel(around.sigma_s) * density;
-    share = beams_.balance(segment.number).of_planes_over_determinant(sine, sigma_s, crossing.determinant);
+    share = beams_.balance(segment.medium).of_planes_over_determinant(sine, sigma_s, crossing.determinant);
   }
   const Rgb collided = plane.power * around.sigma_s *
                        weight_along(around, flight, plane.power, crossing.along_flight, work.counters.walk);

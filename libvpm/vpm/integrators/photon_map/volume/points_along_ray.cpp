@@ -6,11 +6,11 @@
 namespace vpm {
 
 KernelEstimate PointsAtPhoton::along(const EyeSegment& segment, EyeWork& work) const {
-  if (!segment.medium()) return {};
-  const Box& around = maps_.around(segment.number);
+  if (!segment.around()) return {};
+  const Box& around = maps_.around(segment.medium);
   if (around.empty()) return {};
-  const PointsOfSegment points(segment, maps_[segment.number], around, maps_.settings().form);
-  const Rgb factor = segment.throughput * source_factor(*segment.medium());
+  const PointsOfSegment points(segment, maps_[segment.medium], around, maps_.settings().form);
+  const Rgb factor = segment.throughput * source_factor(*segment.around());
   return points.over_share(factor * points.march_evenly(work), work);
 }
 

@@ -27,7 +27,7 @@ GatherSettings of_segment(const GatherSettings& gather) {
 /// Photons have their own transmittances where it costs no look-ups in a grid.
 Spread spread_of(const EyeSegment& segment, const GatherSettings& gather) {
   const bool at_ends = of_segment(gather).boundary == BoundaryRule::ends;
-  return at_ends && segment.medium()->homogeneous() ? Spread::balls_as_discs : Spread::balls;
+  return at_ends && segment.around()->homogeneous() ? Spread::balls_as_discs : Spread::balls;
 }
 
 }  // namespace
@@ -53,10 +53,10 @@ PointsOfSegment::PointsOfSegment(const EyeSegment& segment, const PhotonMap& map
 
 KernelEstimate PointsOfSegment::sum(const Vec3& point, EyeWork& work) const {
   count(work.counters.volume_queries);
-  const Phase& phase = segment_.medium()->phase;
+  const Phase& phase = segment_.around()->phase;
   const Vec3 towards_eye = -segment_.ray.direction;
   if (map_.settings.corrects_each_ball()) {
-    const VolumeRegion region(segment_.scene, segment_.number, point, map_.settings.kernel, form_);
+    const VolumeRegion region(segment_.scene, segment_.medium, point, map_.settings.kernel, form_);
     return volume_sum(phase, point, towards_eye, BoundedMap{map_, region, work.gather()});
   }
   const CountedMap map{map_, work.gather()};
@@ -70,7 +70,7 @@ KernelEstimate PointsOfSegment::sum(const Vec3& point, EyeWork& work) const {
 
 /// The same sum, of photons that project into the region's reach; each times its own transmittance.
 KernelEstimate PointsOfSegment::sum_of_seen(const Vec3& point, EyeWork& work) const {
-  const Medium& medium = *segment_.medium();
+  const Medium& medium = *segment_.around();
   const RadiusMap& map = std::get<RadiusMap>(map_.index);
   const Ray& ray = segment_.ray;
   const float radius = map_.settings.radius, inverse = 1.0f / (radius * radius);
@@ -111,7 +111,7 @@ KernelEstimate PointsOfSegment::sum_of_seen(const Vec3& point, EyeWork& work) co
 }
 
 KernelEstimate PointsOfSegment::march_seen(EyeWork& work) const {
-  const Rgb& sigma_t = segment_.medium()->sigma_t;
+  const Rgb& sigma_t = segment_.around()->sigma_t;
   const float thinnest = std::min({sigma_t.r, sigma_t.g, sigma_t.b});
   const PlaneDistances distances = region_.distances();
   const float deeper = map_.settings.radius * glm::length(distances.slope);  // a point is, than photons around it
@@ -128,7 +128,7 @@ KernelEstimate PointsOfSegment::march_evenly(EyeWork& work) const {
   if (seen_one_by_one()) return march_seen(work);
   KernelEstimate all;
   const auto add = [&](const Vec3& point, const Rgb& weight) { all += weight * sum(point, work); };
-  const SeenThrough seen{segment_.ray, segment_.integrals(work), segment_.medium()->sigma_t};
+  const SeenThrough seen{segment_.ray, segment_.integrals(work), segment_.around()->sigma_t};
   vpm::march_evenly(seen, reach_, step_among(map_.settings.radius, reach_), work.rng, add,
                     [mirrored = mirrored()](double t) { return mirrored(static_cast<float>(t)); });
   return all;
@@ -136,7 +136,7 @@ KernelEstimate PointsOfSegment::march_evenly(EyeWork& work) const {
 
 KernelEstimate PointsOfSegment::over_share(const KernelEstimate& light, EyeWork& work) const {
   if (region_.whole() || is_black(light.value)) return light;
-  const Medium& medium = *segment_.medium();
+  const Medium& medium = *segment_.around();
   const SeenAlong seen(medium.sigma_t, segment_.interval, medium.homogeneous() ? nullptr : &segment_.integrals(work));
   return vpm::over_share(light, region_.share(map_.settings.radius, seen, work.rng), work.counters.gather);
 }

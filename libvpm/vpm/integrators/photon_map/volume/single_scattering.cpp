@@ -17,9 +17,9 @@ Rgb ScatteredOnce::towards_eye(const LightSource& light, const EyeSegment& segme
                                EyeWork& work) const {
   count(work.counters.shadow_rays);
   const ShadowRays rays{scene_, *transmittance_, work.rng, work.counters.walk};
-  const DirectSample sample = sample_direct(rays, light.picked.number, {point, segment.number}, light.from);
+  const DirectSample sample = sample_direct(rays, light.picked.number, {point, segment.medium}, light.from);
   if (is_black(sample.irradiance)) return Rgb(0.0f);
-  const float phase = phase_value(segment.medium()->phase, -sample.direction, -segment.ray.direction);
+  const float phase = phase_value(segment.around()->phase, -sample.direction, -segment.ray.direction);
   return sample.irradiance * phase / light.picked.probability;
 }
 
@@ -63,8 +63,8 @@ double AttenuatedDistances::draw(double u) const {
 }
 
 KernelEstimate SingleEquiangular::along(const EyeSegment& segment, EyeWork& work) const {
-  if (!segment.medium()) return Rgb(0.0f);
-  const Medium& medium = *segment.medium();
+  if (!segment.around()) return Rgb(0.0f);
+  const Medium& medium = *segment.around();
   const Interval interval = medium.clip(segment.ray, segment.interval);
   if (!medium.scatters() || interval.empty()) return Rgb(0.0f);
   const DensityIntegralsAlong& integrals = segment.integrals(work);

@@ -11,36 +11,31 @@
 
 namespace vpm {
 
-/// The segment of a ray from its origin to what it meets first.
-struct Stretch {
-  float length = kInfinity;  // m
-  const Encounter& met;      // what ends it: boundaries or a surface; empty: it ends at the limit or leaves the scene
-};
-
 /// Takes a ray from its origin in `medium` through any number of boundaries, for at most `limit` metres, > 0. Returns
 /// the surface that ends the ray; nothing if the visitor ended it or no surface was met.
 ///
 /// The visitor has these members. They are looked up at compile time:
 ///
-/// - `bool pass(const Stretch& stretch)` is called for every segment before its end is dealt with, so that `ray` and
-///   `medium` are those of the segment. False ends the ray.
+/// - `bool pass(float length, const Encounter& met)` is called for every segment before its end is dealt with, so that
+///   `ray` and `medium` are those of the segment. It is `length` metres long, and ends at what is met: boundaries or a
+///   surface; if that is empty, at the limit or nowhere. False ends the ray.
 /// - `float left(const Ray& ray)` is optional. It returns how far the ray, which has just passed a boundary, may still
 ///   go, m. The ray ends if that is not > 0. Without left(), it is the limit less the lengths of the segments. That
 ///   neglects the small distances by which the ray is moved off boundaries.
 template <class Visitor>
-std::optional<Hit> each_stretch(const Scene& scene, Ray& ray, MediumId& medium, float limit, WalkCounters& counters,
+std::optional<Hit> each_segment(const Scene& scene, Ray& ray, MediumId& medium, float limit, WalkCounters& counters,
                                 Visitor&& visitor) {
   for (;;) {
     const Encounter met = meet(scene, ray, limit, medium, counters);
-    const Stretch stretch{met ? met.hits[0].t : limit, met};
-    if (!visitor.pass(stretch) || !met) return std::nullopt;
+    const float length = met ? met.hits[0].t : limit;
+    if (!visitor.pass(length, met) || !met) return std::nullopt;
     if (!is_boundary(scene.material_of(met.hits[0]))) return met.hits[0];
     cross_boundaries(scene, met, ray, medium, counters);
     if constexpr (requires { visitor.left(ray); }) {
       limit = visitor.left(ray);
       if (!(limit > 0.0f)) return std::nullopt;
     } else {
-      limit -= stretch.length;
+      limit -= length;
     }
   }
 }

@@ -1,5 +1,5 @@
 // Which stretches a ray is made of, and what ends it.
-#include "vpm/path/stretches.h"
+#include "vpm/path/segments.h"
 
 #include <gtest/gtest.h>
 
@@ -33,17 +33,17 @@ struct Notes {
   std::vector<MediumId> media{};
   std::vector<int> shapes{};  // that end them, the first of several; -1: none
 
-  bool pass(const Stretch& stretch) {
-    lengths.push_back(stretch.length);
+  bool pass(float length, const Encounter& met) {
+    lengths.push_back(length);
     media.push_back(medium);
-    shapes.push_back(stretch.met ? static_cast<int>(stretch.met.hits[0].shape) : -1);
+    shapes.push_back(met ? static_cast<int>(met.hits[0].shape) : -1);
     return lengths.size() < most;
   }
 };
 
 template <class Visitor>
 std::optional<Hit> along(const Scene& scene, float limit, WalkCounters& counters, Visitor& notes) {
-  return each_stretch(scene, notes.ray, notes.medium, limit, counters, notes);
+  return each_segment(scene, notes.ray, notes.medium, limit, counters, notes);
 }
 
 void expect_lengths(const std::vector<float>& lengths, const std::vector<float>& expected) {
