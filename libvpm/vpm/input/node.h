@@ -68,7 +68,7 @@ Document read_toml(const std::string& path);
 /// The same of a text; `name` is what errors call it.
 Document parse_toml(const std::string& name, std::string text);
 
-/// A TOML value as written after "key ="; nothing where the text is none.
+/// A TOML value as written after "key ="; null if the text is not one.
 std::unique_ptr<Node> parse_toml_value(const std::string& text, const Source* source);
 
 /// Applies `key.path=value`: the value is read as a TOML value, or taken as a string where it is none. An element of an

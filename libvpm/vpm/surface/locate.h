@@ -70,7 +70,7 @@ Vec2 sphere_uv(const Vec3& normal);
 
 /// The t >= t_min > 0 at which the ray meets the disc, in m; infinity where it does not.
 double intersect_disc(const DiscShape& disc, const Ray& ray, float t_min);
-/// The point of the disc's plane next to origin + t direction.
+/// The point of the disc's plane nearest to origin + t direction.
 Vec3d disc_point(const DiscShape& disc, const Ray& ray, double t);
 /// The box around a disc.
 Box bounds_of(const DiscShape& disc);

@@ -9,12 +9,12 @@ namespace vpm {
 
 class SharedMemory {
  public:
-  /// So many bytes, one at least, all 0, from a multiple of 2 MiB on. Pages are taken from the system as they are
-  /// written to: where it has none left then, it ends the process. Throws std::system_error where it refuses so many in
-  /// advance, because of limits of this process's files, say.
+  /// `bytes` (at least 1) bytes of 0, aligned to 2 MiB. The system provides pages only as they are written to, and ends
+  /// the process if it has none left by then. Throws std::system_error if it refuses the size in advance, say for a
+  /// limit on the size of this process's files.
   explicit SharedMemory(size_t bytes);
-  /// What a process of the same user has made and still holds, which may be this one. Throws std::system_error where
-  /// nothing of that address is to be had.
+  /// Memory that a process of the same user has made and still holds; this process may be that one. Throws
+  /// std::system_error if there is none of that address.
   explicit SharedMemory(const std::string& address);
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;

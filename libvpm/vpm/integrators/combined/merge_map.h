@@ -28,13 +28,13 @@ class MergeMap {
   template <class Visit>
   uint32_t visit_leaves_near(const Vec3& point, Visit&& visit) const;
 
-  /// How the kBlock photons of a leaf lie to a ray.
+  /// Where the kBlock photons of a leaf are, seen from a ray.
   struct BesideRay {
-    Floats distances2;  // squared distances from the ray, m^2; infinite beside its ends
+    Floats distances2;  // squared distances from the ray, m^2; infinite before and behind the interval
     Floats places;      // along the ray, m
   };
-  /// Calls visit(leaf, BesideRay) for each leaf of which some photon may be nearer to the ray than the radius, at a
-  /// place in the interval, m, in a fixed order. Returns how many photons these have room for.
+  /// Calls visit(leaf, BesideRay), in a fixed order, for each leaf that holds a photon nearer than the radius, m, to
+  /// the ray within the interval. Returns how many photons were looked at.
   template <class Visit>
   uint32_t visit_leaves_near_ray(const Ray& ray, const Interval& interval, float radius, Visit&& visit) const;
 

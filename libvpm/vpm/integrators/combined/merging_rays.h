@@ -15,12 +15,12 @@
 
 namespace vpm {
 
-/// Rays in lanes, as far as merges need them.
+/// What merges need of rays, one ray a lane.
 struct MergingRays {
-  FloatsRgb passed{};  // MergeSegment's
-  Floats before{};
-  Floats splats{};  // MergeSegment::adjacent over `unit`, the density that a technique's shares are relative to
-  Floats3 along;    // directions, unit
+  FloatsRgb passed{};  // MergeSegment::passed
+  Floats before{};     // MergeSegment::before
+  Floats splats{};     // MergeSegment::adjacent over the `unit` of set(), as techniques take densities relative to it
+  Floats3 along;       // directions, unit
 
   void set(size_t lane, const MergeSegment& segment, double unit) {
     for (int c = 0; c < 3; ++c) passed[c].set(lane, segment.passed[c]);

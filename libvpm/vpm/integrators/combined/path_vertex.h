@@ -13,7 +13,7 @@ enum class SubPath { light, eye };
 /// A part of a path between two vertices.
 struct Leg {
   Rgb transmittance{1.0f};
-  double distance = 0.0;  // m; 1 where light is parallel, as it does not spread
+  double distance = 0.0;  // m; 1 for parallel light, which has no falloff by 1/distance^2
 
   double mean() const { return mean_channel(transmittance); }
   double per_square() const { return 1.0 / (distance * distance); }

@@ -90,8 +90,8 @@ class VolumeEstimator : public Estimator {
   /// Estimates that light, scattered into the segment, as it is seen at the segment's start and times its throughput,
   /// W/(m^2 sr).
   virtual KernelEstimate along(const EyeSegment& segment, EyeWork& work) const = 0;
-  /// Adds the same to the light of up to kEyeRays segments, in one homogeneous medium, of rays that come straight from
-  /// `apex`. They may be gathered together: the result is that of along() up to rounding.
+  /// Adds along() to the light of each of up to kEyeRays segments, in one homogeneous medium, of rays that come
+  /// straight from `apex`. An override may treat them jointly, if the result is the same up to rounding.
   virtual void along_bundle([[maybe_unused]] const Vec3& apex, SegmentBundle bundle) const {
     for (BundledSegment& of : bundle) of.light += along(*of.segment, *of.work);
   }

@@ -23,11 +23,12 @@ inline float pick_channel(const Rgb& values, const Rgb& shares, float u) {
   return u < shares.r + shares.g ? values.g : values.b;
 }
 
-/// The weight of a flight whose distance was drawn from the medium's own transmittance, for the density integral it
-/// crossed. 1 in a grey medium.
+/// The weight of a flight across the density `integral`, m, whose distance was drawn from the transmittance of one
+/// channel, picked by `shares`. 1 in a grey medium.
 Rgb analog_weight(const Medium& medium, const Rgb& shares, double integral, bool collided);
 
-/// The exact flight in a medium of constant density [Jarosz2008, eq. 7.6, 7.7 with the rate restored].
+/// The exact flight in a medium of constant density [Jarosz2008, eq. 7.6 and 7.7, whose density lacks the factor
+/// sigma_t].
 Flight homogeneous_flight(const Medium& medium, const Interval& interval, const Rgb& power, Rng& rng);
 
 /// A flight whose distance is drawn from exp(-rate d), rates per channel in 1/m, with the weights that correct it for

@@ -93,7 +93,7 @@ class SegmentMap {
   template <class Visit>
   void unpack(const BesideRay& there, const NearPhotons& near, Visit&& visit) const;
 
-  /// The photons' radii, leaf by leaf, and the boxes around their discs.
+  /// Sets the photons' radii, and the boxes around their discs.
   void choose_radii(const BeamRadii& radii);
   Box box_of(size_t begin, size_t end) const;
 

@@ -13,11 +13,11 @@
 
 namespace vpm {
 
-/// A method at one budget.
+/// What a method costs at one budget, and how large its errors are.
 struct BudgetSummary {
   std::vector<RunCost> costs;         // by repetition
   std::vector<PictureErrors> each;    // by repetition
-  RepeatedErrors errors;              // of all
+  RepeatedErrors errors;              // of all repetitions, which are taken for independent ones
   std::string why_bias_unknown = "";  // empty: it is known
 };
 /// `images` and `costs` are of the same repetitions, at least 3.

@@ -64,8 +64,8 @@ Hit sample_pieces(const Geometry& geometry, const UvLayout& layout, std::span<co
 /// The power, W, that a map of irradiance says the shape receives: the sum of irradiance times area over the texels.
 Rgbd received_power(const UvLayout& layout, const Image& irradiance);
 
-/// Gives every texel that nothing covers the mean of its covered neighbours (of eight), `rings` times over,
-/// so that bilinear lookups at the edges of what is covered do not see black.
+/// Sets each uncovered texel to the mean of those of its eight neighbours that are covered, and repeats this `rings`
+/// times, so that bilinear lookups at the edges do not see black.
 Image dilated(const Image& map, const UvLayout& layout, int rings);
 
 }  // namespace vpm

@@ -29,10 +29,10 @@ class PhotonBeams final : public VolumeEstimator {
   const BeamBalance& balance(MediumId medium) const { return beams_[medium].balance; }
 
  private:
-  /// The collision that a beam's flight began at, if it did.
+  /// The collision that a beam's flight began at, if any.
   struct Begin {
     Vec3 from;      // the direction before, unit
-    float sigma_s;  // 1/m, the mean of its channels; 0: it did not
+    float sigma_s;  // 1/m, the mean of its channels; 0: none
   };
   struct Map {
     GatherSettings settings;  // of this pass
