@@ -5,6 +5,7 @@
 #include "vpm/base/counters.h"
 #include "vpm/estimate/eye_segment.h"
 #include "vpm/estimate/surface_estimate.h"
+#include "vpm/integrators/photon_map/check.h"
 #include "vpm/photon/caustics.h"
 #include "vpm/surface/shading.h"
 
@@ -174,6 +175,26 @@ bool FinalGather::is_too_short(float length, const SurfaceView& view, EyeWork& w
   const CountedMap map{ends_.map(), work.gather()};
   return length < map.settings.radius && (map.settings.boundary == BoundaryRule::corrected ||
                                           length < scattered_radius(view.material, view.hit, -view.travel, map));
+}
+
+void check_final_gather(const RenderSettings& s) {
+  if (s.indirect.type != IndirectLight::final_gather) return;
+  const bool precomputed = s.indirect.irradiance == EndIrradiance::precomputed;
+  refuse_count_in_blocks(s, s.caustics, "integrator.caustics.type", "write \"radius\"");
+  refuse_in_blocks(s, s.indirect.rays_by == GatherBy::photons, "integrator.indirect.rays_by",
+                   "the photons of one block would guide its rays otherwise than those of another",
+                   "write \"material\"");
+  refuse_in_blocks(s, precomputed, "integrator.indirect.irradiance",
+                   "irradiance would be computed at the places of one block's photons, from these alone",
+                   "write \"estimate\"");
+  refuse_in_blocks(s, s.caustics.emitted > 0, "integrator.caustics.emitted",
+                   "photons that are aimed have none of their own", "leave out 'emitted' of [integrator.caustics]");
+  refuse_if(precomputed && s.surface.boundary == BoundaryRule::corrected, "integrator.indirect.irradiance",
+            "irradiance is computed beforehand without a correction at borders",
+            "write \"estimate\", or make 'boundary' of [integrator.surface] \"none\"");
+  refuse_if(precomputed && kernel_order(s.surface.kernel) > 2, "integrator.surface.kernel",
+            "irradiance computed beforehand must not be negative, as that by a kernel of order 4 may be",
+            "use another kernel, or make 'irradiance' \"estimate\"");
 }
 
 }  // namespace vpm

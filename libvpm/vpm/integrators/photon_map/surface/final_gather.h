@@ -25,6 +25,9 @@
 
 namespace vpm {
 
+/// What final gathering asks of other settings.
+void check_final_gather(const RenderSettings& settings);
+
 class FinalGather final : public SurfaceEstimator {
  public:
   /// Without `direct`, the caustic map also holds the light that comes straight from lights.

@@ -1,11 +1,15 @@
 // Discs of pixels, and what is found in them.
 #include "vpm/integrators/photon_map/surface/pixel_radii.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 
 #include "vpm/base/counters.h"
+#include "vpm/base/settings/setting_error.h"
 #include "vpm/estimate/surface_estimate.h"
+#include "vpm/integrators/settings.h"
 
 namespace vpm {
 
@@ -34,6 +38,27 @@ KernelEstimate PixelRadii::sent(const SurfaceView& view, EyeWork& work) const {
       scattered_radiance(view.material, view.hit, -view.travel, CountedMap{map_.map(), work.gather(), own});
   found_[work.pixel] += counters.used - before;
   return radiance + direct;
+}
+
+void check_pixel_radii(const RenderSettings& s) {
+  if (s.radii != RadiusSchedule::per_pixel) return;
+  const std::string pixels = "where 'radii' of [integrator] are \"per-pixel\" ";
+  refuse_if(s.photons.in_cube > 0, "integrator.photons.in_cube",
+            pixels + "photons are counted, so that none may be merged", "write 0, or other radii");
+  refuse_if(
+      s.until.first > 0, "integrator.radii",
+      pixels + fmt::format("they follow from all passes before, so that no piece begins with pass {}", s.until.first),
+      "write other radii, or render all passes in one run");
+  refuse_if(s.surface.mode != GatherMode::radius, "integrator.surface.type", pixels + "surfaces gather by radius",
+            "write \"radius\", or other radii");
+  refuse_if(kernel_order(s.surface.kernel) > 2, "integrator.surface.kernel",
+            pixels + "the rule of radii is for kernels whose bias goes with their square",
+            "use another kernel, or write other radii");
+  refuse_if(s.indirect.type == IndirectLight::final_gather, "integrator.indirect.type",
+            pixels + "there is no final gathering", "take indirect light from \"photons\", or write other radii");
+  refuse_if(s.surface.boundary == BoundaryRule::corrected, "integrator.surface.boundary",
+            pixels + "the number of photons found sets the radius, so that none may be left out at borders",
+            "write \"none\", or other radii");
 }
 
 }  // namespace vpm

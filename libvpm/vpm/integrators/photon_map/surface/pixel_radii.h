@@ -9,6 +9,12 @@
 
 namespace vpm {
 
+struct RenderSettings;
+
+/// What radii of pixels' own ask of other settings: they are those of gathers by radius, straight from the map of
+/// single photons.
+void check_pixel_radii(const RenderSettings& settings);
+
 class PixelRadii final : public SurfaceEstimator {
  public:
   /// `radii` are those of the pixels in this pass, m. The map is gathered by radius, without correction at borders.

@@ -5,6 +5,7 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/estimate/surface_region.h"
+#include "vpm/integrators/photon_map/check.h"
 
 namespace vpm {
 
@@ -40,6 +41,11 @@ void SurfaceMap::build(RenderStatistics& statistics) {
   map_ = make_map(hits_.photons, gather, hits_.emitted_count, pass_, statistics);
   if (has_diffuse(scene_)) statistics.photon_map_bytes += map_.prepare_sums_by_nodes();
   statistics.last_surface_radius = map_.settings.radius;
+}
+
+void check_surface_map(const RenderSettings& s) {
+  refuse_count_in_blocks(s, s.surface, "integrator.surface.type", "write \"radius\"");
+  refuse_correction_in_cubes(s, s.surface, "integrator.surface.boundary");
 }
 
 }  // namespace vpm

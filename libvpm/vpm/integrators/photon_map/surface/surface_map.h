@@ -12,6 +12,11 @@ namespace vpm {
 /// with or without the correction at borders.
 KernelEstimate gather_from(const PhotonMap& map, const Scene& scene, const SurfaceView& view, EyeWork& work);
 
+struct RenderSettings;
+
+/// What the surface map asks of other settings.
+void check_surface_map(const RenderSettings& settings);
+
 /// Records, sorts and gathers the photons on non-specular surfaces.
 class SurfaceMap {
  public:

@@ -1,8 +1,11 @@
-// What photons have left of their powers along their flights.
+// What photons have left of their powers along their flights, and where flights are beams.
 #include "vpm/integrators/photon_map/volume/beam_maps.h"
 
 #include "vpm/base/counters.h"
+#include "vpm/integrators/photon_map/check.h"
+#include "vpm/integrators/photon_map/volume/estimators.h"
 #include "vpm/medium/distance/mixture.h"
+#include "vpm/scene/scene_facts.h"
 
 namespace vpm {
 namespace {
@@ -46,6 +49,21 @@ void multiply_by_left(const Medium& medium, const VolumeSettings& settings, cons
     passed.b[i] *= left.b;
   }
   if (by_density) count(counters.lookups, found.size);
+}
+
+void check_flights(const RenderSettings& s, const SceneFacts& facts) {
+  refuse_in_blocks(s, s.volume.flights > 0, "integrator.volume.flights",
+                   "flights cannot be drawn from those of all blocks", "leave out 'flights'");
+  refuse_if(facts.endless_flights, "integrator.volume.type",
+            "flights have no end in a channel that the medium of the world does not attenuate",
+            "write \"beam\", or put the scene into a box of the medium");
+  refuse_if(s.volume.length == BeamLength::long_beams && facts.endless, "integrator.volume.length",
+            "the medium of the world has no end, and long beams would have none",
+            "write \"short\", or put the scene into a box of the medium");
+  refuse_if(!strategy_info(s.distance.strategy).analog, "integrator.distance.type",
+            "flights by '" + s.distance.strategy + "' do not end as the transmittance says, so that they are no beams",
+            "write another 'type' in [integrator.volume], or another strategy; " +
+                listed("right for photon beams", strategies_that(&StrategyInfo::analog)));
 }
 
 }  // namespace vpm

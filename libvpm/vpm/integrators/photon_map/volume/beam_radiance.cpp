@@ -3,6 +3,7 @@
 #include "vpm/integrators/photon_map/volume/estimators.h"
 
 #include "vpm/estimate/volume_estimate.h"
+#include "vpm/integrators/photon_map/check.h"
 #include "vpm/integrators/photon_map/volume/bundle_lanes.h"
 #include "vpm/integrators/photon_map/volume/pass_to_eye.h"
 #include "vpm/photon/stored_power.h"
@@ -126,6 +127,10 @@ void describe_own_radii(VolumeSettings& settings, Description& description) {
            "to `radius`");
 }
 
+void check_own_radii(const RenderSettings& s, const SceneFacts&) {
+  refuse_count_in_blocks(s, s.volume, "integrator.volume.count", "write 0");
+}
+
 }  // namespace
 
 extern const VolumeEstimatorInfo kBeamRadiance{
@@ -133,6 +138,7 @@ extern const VolumeEstimatorInfo kBeamRadiance{
     .summary = "those within the radius of a whole stretch of the eye's ray, in one query",
     .along_rays = true,
     .describe = describe_own_radii,
+    .check = check_own_radii,
     .make = [](const VolumePlan& plan) -> std::unique_ptr<VolumeEstimator> {
       return std::make_unique<BeamRadiance>(plan.scene, along_rays(plan.settings), plan.pass);
     }};

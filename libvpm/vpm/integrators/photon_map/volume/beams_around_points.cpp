@@ -8,6 +8,7 @@
 
 #include "vpm/estimate/march.h"
 #include "vpm/estimate/volume_estimate.h"
+#include "vpm/integrators/photon_map/check.h"
 
 namespace vpm {
 namespace {
@@ -117,12 +118,29 @@ KernelEstimate BeamsAroundPoints::sum(const Vec3& point, const Sight& sight, Eye
   return normed(light, kernel_norm_2d(map.settings.kernel, radius));
 }
 
+namespace {
+
+void check_beams_around_points(const RenderSettings& s, const SceneFacts& facts) {
+  check_flights(s, facts);
+  refuse_in_blocks(s, true, "integrator.volume.type",
+                   "eye rays do not know where the beams of all blocks lie, among which they would march",
+                   "write \"photon-beams\"");
+  refuse_if(s.photons.stored > 0, "integrator.photons.stored",
+            "flights do not count towards the photons stored, and in media nothing else is: 'type' of "
+            "[integrator.volume] is \"" +
+                s.volume.type() + "\"",
+            "write 'emitted' instead, or another 'type' in [integrator.volume]");
+}
+
+}  // namespace
+
 extern const VolumeEstimatorInfo kBeamsAroundPoints{
     .name = "beams-points",
     .summary = "flights within the radius of points of a march",
     .collisions = false,
     .flights = true,
     .describe = describe_flights,
+    .check = check_beams_around_points,
     .make = [](const VolumePlan& plan) -> std::unique_ptr<VolumeEstimator> {
       return std::make_unique<BeamsAroundPoints>(plan.scene, along_rays(plan.settings), plan.pass,
                                                  plan.max_optical_step);

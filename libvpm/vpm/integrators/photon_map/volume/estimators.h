@@ -30,6 +30,12 @@ void describe_density_floor(VolumeSettings& settings, Description& description);
 /// Which flights are kept as beams, and how long they are.
 void describe_flights(VolumeSettings& settings, Description& description);
 
+/// What all gathers of flights ask of other settings and the scene.
+void check_flights(const RenderSettings& settings, const SceneFacts& facts);
+
+/// Likewise of photon beams that rays cross.
+void check_photon_beams(const RenderSettings& settings, const SceneFacts& facts);
+
 /// Settings of gathers along rays, for which "corrected" at borders is the same as "ends".
 VolumeSettings along_rays(VolumeSettings settings);
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <variant>
 
+#include "vpm/base/settings/setting_error.h"
 #include "vpm/estimate/volume_estimate.h"
+#include "vpm/integrators/photon_map/check.h"
 #include "vpm/integrators/photon_map/volume/bundle_lanes.h"
 
 namespace vpm {
@@ -173,6 +175,13 @@ KernelEstimate PhotonBeams::gather(const EyeSegment& segment, const SegmentRegio
   return over_share(light, region.share(radius, seen, work.rng), counters);
 }
 
+void check_photon_beams(const RenderSettings& s, const SceneFacts& facts) {
+  check_flights(s, facts);
+  refuse_if(s.photons.in_cube > 0, "integrator.photons.in_cube",
+            "where beams cross rays, the collisions near these weigh by their own directions, and must not be merged",
+            "write 0, or another 'type' in [integrator.volume]");
+}
+
 extern const VolumeEstimatorInfo kPhotonBeams{
     .name = "photon-beams",
     .summary =
@@ -180,6 +189,7 @@ extern const VolumeEstimatorInfo kPhotonBeams{
     .along_rays = true,
     .flights = true,
     .describe = describe_flights,
+    .check = check_photon_beams,
     .make = [](const VolumePlan& plan) -> std::unique_ptr<VolumeEstimator> {
       return std::make_unique<PhotonBeams>(plan.scene, along_rays(plan.settings), plan.pass);
     }};

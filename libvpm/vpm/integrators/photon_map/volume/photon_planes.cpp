@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "vpm/integrators/photon_map/check.h"
 #include "vpm/integrators/photon_map/volume/pass_to_eye.h"
 #include "vpm/integrators/words.h"
 #include "vpm/path/direct_light.h"
@@ -109,6 +110,12 @@ void describe_planes(VolumeSettings& settings, Description& description) {
          "any bias but of infinite variance, for study");
 }
 
+void check_photon_planes(const RenderSettings& s, const SceneFacts& facts) {
+  check_photon_beams(s, facts);
+  refuse_in_blocks(s, true, "integrator.volume.type", "planes cannot be drawn from the flights of all blocks",
+                   "write \"photon-beams\"");
+}
+
 }  // namespace
 
 extern const VolumeEstimatorInfo kPhotonPlanes{
@@ -118,6 +125,7 @@ extern const VolumeEstimatorInfo kPhotonPlanes{
     .flights = true,
     .planes = true,
     .describe = describe_planes,
+    .check = check_photon_planes,
     .make = [](const VolumePlan& plan) -> std::unique_ptr<VolumeEstimator> {
       return std::make_unique<PhotonPlanes>(plan.scene, plan.transmittance, along_rays(plan.settings), plan.pass);
     }};
