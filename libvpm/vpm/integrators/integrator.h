@@ -25,15 +25,18 @@ struct RaysOfPass {
 struct IntegratorInfo {
   /// Its settings, but for `type` of [integrator].
   void (*describe)(RenderSettings&, Description&);
-  /// Throws a SettingError where settings contradict each other or the scene.
-  void (*check)(const RenderSettings&, const SceneFacts&);
+  /// Throws a SettingError where settings contradict each other or the scene; null: they do not.
+  void (*check)(const RenderSettings&, const SceneFacts&) = nullptr;
   /// Passes of the whole film, without the camera's crop.
   PassMaker (*passes)(const Scene&, const RenderSettings&);
   RaysOfPass (*rays)(const Scene&, const RenderSettings&, int pass, uint64_t paths_of_shares);
-  /// See gathers(), stage_lines(), layer_names().
-  bool (*gathers)(const Scene&, const RenderSettings&);
+  /// See gathers(), stage_lines(), layer_names(), integrator_warnings(). Null: it never gathers, has no layers, warns
+  /// of nothing.
+  bool (*gathers)(const Scene&, const RenderSettings&) = nullptr;
   std::vector<std::string> (*stages)(const Scene&, const RenderSettings&, const SceneFacts& shown);
-  std::vector<std::string> (*layers)(const RenderSettings&);
+  std::vector<std::string> (*layers)(const RenderSettings&) = nullptr;
+  std::vector<std::string> (*warnings)(const SceneFacts& shown, const RenderSettings&,
+                                       const RenderStatistics&) = nullptr;
 };
 const IntegratorInfo& info_of(Integrator integrator);
 

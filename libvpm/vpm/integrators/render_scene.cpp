@@ -67,7 +67,7 @@ void validate(const RenderSettings& settings, const SceneFacts& facts) {
     if (info.name == settings.transmittance.estimator)
       check_numbers(settings.transmittance.parameters, info.parameters, "integrator.transmittance",
                     settings.transmittance.estimator);
-  info_of(settings.integrator).check(settings, facts);
+  if (const auto check = info_of(settings.integrator).check) check(settings, facts);
 }
 
 void validate_light_map(const RenderSettings& settings, const SceneFacts& facts) {
@@ -106,15 +106,23 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, RenderRe
 }
 
 bool gathers(const Scene& scene, const RenderSettings& settings) {
-  return info_of(settings.integrator).gathers(scene, settings);
+  const auto gathers = info_of(settings.integrator).gathers;
+  return gathers && gathers(scene, settings);
 }
 
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const SceneFacts& shown) {
   return info_of(settings.integrator).stages(scene, settings, shown);
 }
 
+std::vector<std::string> integrator_warnings(const SceneFacts& shown, const RenderSettings& settings,
+                                             const RenderStatistics& statistics) {
+  const auto warnings = info_of(settings.integrator).warnings;
+  return warnings ? warnings(shown, settings, statistics) : std::vector<std::string>{};
+}
+
 std::vector<std::string> layer_names(const RenderSettings& settings) {
-  return info_of(settings.integrator).layers(settings);
+  const auto layers = info_of(settings.integrator).layers;
+  return layers ? layers(settings) : std::vector<std::string>{};
 }
 
 size_t layer_films(const RenderSettings& settings) {

@@ -38,6 +38,10 @@ bool gathers(const Scene& scene, const RenderSettings& settings);
 /// the scene.
 std::vector<std::string> stage_lines(const Scene& scene, const RenderSettings& settings, const SceneFacts& shown);
 
+/// What of a render's counts its integrator warns of, a sentence each.
+std::vector<std::string> integrator_warnings(const SceneFacts& shown, const RenderSettings& settings,
+                                             const RenderStatistics& statistics);
+
 /// The names of the layers that passes under these settings have of what techniques find: "combined.NAME.weighted",
 /// whose sum over techniques is the picture, and "combined.NAME.unweighted", for each technique. None where they are
 /// not asked for.

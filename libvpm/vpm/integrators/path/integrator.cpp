@@ -40,12 +40,9 @@ std::vector<std::string> stages_of_paths(const Scene& scene, const RenderSetting
 extern const IntegratorInfo kPathTracer;
 const IntegratorInfo kPathTracer{
     .describe = describe_paths,
-    .check = [](const RenderSettings&, const SceneFacts&) {},
     .passes = passes_of_paths,
     .rays = rays_of_paths,
-    .gathers = [](const Scene&, const RenderSettings&) { return false; },
     .stages = stages_of_paths,
-    .layers = [](const RenderSettings&) { return std::vector<std::string>{}; },
 };
 
 }  // namespace vpm

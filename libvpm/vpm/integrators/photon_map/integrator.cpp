@@ -38,7 +38,7 @@ const IntegratorInfo kPhotonMaps{
     .gathers = [](const Scene& scene,
                   const RenderSettings& settings) { return !plan_estimators(scene, settings, 0).maps().empty(); },
     .stages = stages_of_photon_maps,
-    .layers = [](const RenderSettings&) { return std::vector<std::string>{}; },
+    .warnings = warnings_of_photon_maps,
 };
 
 }  // namespace vpm
