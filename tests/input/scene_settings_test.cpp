@@ -176,13 +176,13 @@ TEST(SceneFile, AnAutomaticIntegratorIsChosenWithAllThatItHas) {
 }
 
 TEST(SceneFile, RadiiThatAreLeftOutAreKnown) {
-  EXPECT_EQ(load_with("").automatic.left_out, (Keys{"integrator.surface.radius", "integrator.volume.radius"}));
+  EXPECT_EQ(load_with("").automatic.default_radii, (Keys{"integrator.surface.radius", "integrator.volume.radius"}));
   const RenderJob loaded = load_with(
       "[integrator.volume]\nradius = 'auto'\n"
       "[integrator.indirect]\ntype = 'final-gather'\n"
       "[integrator.surface]\nradius = 2\n");
-  EXPECT_EQ(loaded.automatic.left_out, Keys{"integrator.caustics.radius"});
-  EXPECT_TRUE(load_with("[integrator]\ntype = 'path'\n").automatic.left_out.empty());
+  EXPECT_EQ(loaded.automatic.default_radii, Keys{"integrator.caustics.radius"});
+  EXPECT_TRUE(load_with("[integrator]\ntype = 'path'\n").automatic.default_radii.empty());
 }
 
 const char* const kPhotons =
@@ -269,7 +269,7 @@ TEST(SceneFile, OptionsDoNotHideMistakesOfTheFile) {
 /// Each option is seen by itself: only those that leave out something are named, and what stands behind them stays.
 TEST(SceneFile, OptionsLeaveOutOneAfterAnother) {
   const std::string photons = "[integrator.photons]\nemitted = 900\n";
-  EXPECT_EQ(load_with(photons, {"integrator.type=path", "integrator.distance.type=delta"}).left_out,
+  EXPECT_EQ(load_with(photons, {"integrator.type=path", "integrator.distance.type=delta"}).replaced,
             "integrator.type is \"path\" in place of \"photon-map\": left out are integrator.photons.emitted");
   EXPECT_THROW(
       load_with("", {"integrator.type=path", "integrator.photons.emitted=7", "integrator.distance.type=delta"}),
@@ -277,21 +277,21 @@ TEST(SceneFile, OptionsLeaveOutOneAfterAnother) {
   // Keys that an option made settings, as the common keys of an experiment do.
   EXPECT_EQ(
       load_with("", {"integrator.volume.type=photon-beams", "integrator.volume.flights=7", "integrator.type=path"})
-          .left_out,
+          .replaced,
       "integrator.type is \"path\" in place of \"photon-map\": left out are integrator.volume.type, "
       "integrator.volume.flights");
 }
 
 TEST(SceneFile, AnyOptionLeavesOutKeysThatAreNoneAnyMore) {
   const std::string guided = "[integrator.importance]\nimportons = 9\nscatter = true\n";
-  EXPECT_EQ(load_with(guided, {"integrator.importance.importons=0"}).left_out,
+  EXPECT_EQ(load_with(guided, {"integrator.importance.importons=0"}).replaced,
             "integrator.importance.importons is \"0\" in place of \"9\": left out are integrator.importance.scatter");
   const std::string gathered = "[integrator.indirect]\ntype = 'final-gather'\n[integrator.caustics]\nemitted = 5\n";
-  EXPECT_EQ(load_with(gathered, {"integrator.indirect.type=photons"}).left_out,
+  EXPECT_EQ(load_with(gathered, {"integrator.indirect.type=photons"}).replaced,
             "integrator.indirect.type is \"photons\" in place of \"final-gather\": left out are "
             "integrator.caustics.emitted");
   const RenderJob combined = load_with("[integrator]\nradii = 'per-pixel'\n", {"integrator.type=combined"});
-  EXPECT_EQ(combined.left_out,
+  EXPECT_EQ(combined.replaced,
             "integrator.type is \"combined\" in place of \"photon-map\": left out are integrator.radii");
   EXPECT_EQ(combined.settings.radii, RadiusSchedule::per_pass);
 }

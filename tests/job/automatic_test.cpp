@@ -159,7 +159,7 @@ TEST(Automatic, DefaultRadiiAreTheSameWhateverTimeIsAskedFor) {
   const AssembledScene room = foggy_room(4.0f);
   RenderSettings unhurried, hurried;
   hurried.until.seconds = 0.1;
-  const AutomaticSettings automatic{.left_out = {"integrator.volume.radius"}};
+  const AutomaticSettings automatic{.default_radii = {"integrator.volume.radius"}};
   choose_default_radii(room.scene, automatic, unhurried);
   choose_default_radii(room.scene, automatic, hurried);
   EXPECT_EQ(hurried.volume.radius, unhurried.volume.radius);
@@ -237,7 +237,7 @@ TEST(Automatic, CombinedTechniquesHaveTheRadiiOfMapsUpToThatOfMerges) {
 /// Few photons want wide radii, within which merges at borders would lose light.
 TEST(Automatic, MergesAreByDefaultNoWiderThanWhereNobodyChooses) {
   const Scene scene = cloud_over_floor(true);
-  const AutomaticSettings automatic{.left_out = {"integrator.volume.radius", "integrator.surface.radius"}};
+  const AutomaticSettings automatic{.default_radii = {"integrator.volume.radius", "integrator.surface.radius"}};
   RenderSettings maps, combined;
   maps.photons.emitted = combined.photons.emitted = 2000;
   combined.integrator = Integrator::combined;
@@ -261,7 +261,7 @@ TEST(Automatic, RadiiHaveTheirDefaultsWhereTheTimeDoesNotAllowMore) {
   choose_default_radii(scene, automatic, usual);
   const HastyClock clock;
   const Chosen chosen = choose_settings(scene, automatic, {clock, 1.0}, settings);
-  EXPECT_EQ(chosen.left_out, "the time does not allow to choose photons and radii");
+  EXPECT_EQ(chosen.not_chosen, "the time does not allow to choose photons and radii");
   EXPECT_EQ(chosen.choices.size(), 2u);
   EXPECT_EQ(settings.volume.radius, usual.volume.radius);
   EXPECT_EQ(settings.surface.radius, usual.surface.radius);

@@ -289,7 +289,7 @@ TEST(RenderJob, ChoosingByTheTimeThatIsLeftLeavesTheTimeThatIsAskedFor) {
 TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
   const auto radius_of = [](double seconds, GatherMode mode) {
     RenderJob job = lit_floor();
-    job.automatic.left_out = {"integrator.surface.radius"};
+    job.automatic.default_radii = {"integrator.surface.radius"};
     job.settings.surface.radius = {};
     job.settings.surface.mode = mode;
     if (seconds > 0.0) job.settings.until = {.seconds = seconds};
@@ -306,7 +306,7 @@ TEST(RenderJob, DefaultRadiiGoByPhotonsAndNotByTime) {
 /// A default radius belongs to the first pass, which may take twice the time: what is over then is the render.
 TEST(RenderJob, EndsWhereTheTimeDoesNotAllowADefaultRadius) {
   RenderJob job = lit_floor();
-  job.automatic.left_out = {"integrator.surface.radius"};
+  job.automatic.default_radii = {"integrator.surface.radius"};
   job.settings.surface.radius = {};
   job.settings.until = {.seconds = 2.0};
   const HastyClock clock;
@@ -319,12 +319,12 @@ TEST(RenderJob, EndsWhereTheTimeDoesNotAllowADefaultRadius) {
 
 TEST(RenderJob, OfScenesMadeInCodeRadiiAreChosenThatNobodyGives) {
   const AutomaticSettings::Keys others{"integrator.caustics.radius", "integrator.volume.radius"};
-  EXPECT_EQ(lit_floor().automatic.left_out, others);
+  EXPECT_EQ(lit_floor().automatic.default_radii, others);
   RenderJob job = make_job({lit_floor().scene, {}, {}});
-  EXPECT_TRUE(job.automatic.left_out.contains("integrator.surface.radius"));
+  EXPECT_TRUE(job.automatic.default_radii.contains("integrator.surface.radius"));
   job.settings = lit_floor().settings;  // a radius that is given later stays
   choose(job);
-  EXPECT_EQ(job.automatic.left_out, others);
+  EXPECT_EQ(job.automatic.default_radii, others);
   EXPECT_EQ(job.settings.surface.radius, lit_floor().settings.surface.radius);
 }
 

@@ -131,7 +131,7 @@ TEST(Setting, ReachesItsMemberAndNoOther) {
         RenderSettings untouched = usual;
         for (const Setting& before : describe(untouched))
           if (const std::optional<Setting> after = find_setting(s, before.key);
-              after && after->usual == before.usual && before.key != setting.key) {
+              after && after->default_value == before.default_value && before.key != setting.key) {
             EXPECT_EQ(after->get(), before.get()) << setting.key << " changes " << before.key;
           }
       }
@@ -172,7 +172,7 @@ TEST(Setting, IsOfTheChosenComponents) {
 TEST(Setting, IsReadAgainFromItsText) {
   for (RenderSettings settings : all_choices())
     for (const Setting& setting : describe(settings)) {
-      for (const SettingValue& value : other_values(setting, setting.usual))
+      for (const SettingValue& value : other_values(setting, setting.default_value))
         EXPECT_EQ(parse(setting, text_of(value)), value) << setting.key << " = " << text_of(value);
       for (const char* text : {"", "-1", "1e99", "nan", "inf", "12 m", "auto", "perhaps"})
         EXPECT_FALSE(parse(setting, text)) << setting.key << " = " << text;

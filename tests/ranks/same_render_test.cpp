@@ -32,7 +32,7 @@ TEST(SameRender, WhatRank0ChoseIsTaken) {
   Post post(2);
   RankInMemory leader(post, 0), other(post, 1);
   RenderJob led = job_of_seed(7), job = job_of_seed(7);
-  for (RenderJob* each : {&led, &job}) each->automatic.left_out = {"integrator.volume.radius"};
+  for (RenderJob* each : {&led, &job}) each->automatic.default_radii = {"integrator.volume.radius"};
   led.choices = {{"integrator.volume.radius", "0.25", ""}};
   led.settings.volume.radius = 0.25f;
   send_render(leader, identity_of(led));

@@ -158,11 +158,11 @@ TEST_F(VpmReport, TellsSettingsWithDefaultsAndReasons) {
   std::map<std::string, json> rows;
   for (const json& row : data.at("settings")) rows[row.at("key")] = row;
   EXPECT_EQ(rows.at("integrator.type").at("value"), "combined");
-  EXPECT_EQ(rows.at("integrator.type").at("usual"), "`\"photon-map\"`");
-  EXPECT_EQ(rows.at("integrator.type").at("is_usual"), false);
+  EXPECT_EQ(rows.at("integrator.type").at("default"), "`\"photon-map\"`");
+  EXPECT_EQ(rows.at("integrator.type").at("is_default"), false);
   EXPECT_TRUE(rows.at("integrator.type").at("reason").is_null());
-  EXPECT_EQ(rows.at("integrator.surface.kernel").at("is_usual"), true);
-  EXPECT_EQ(rows.at("integrator.distance.type").at("is_usual"), true) << "that of the integrator";
+  EXPECT_EQ(rows.at("integrator.surface.kernel").at("is_default"), true);
+  EXPECT_EQ(rows.at("integrator.distance.type").at("is_default"), true) << "that of the integrator";
   EXPECT_EQ(all.at("chosen").at(0).at("key"), "integrator.volume.radius");
   EXPECT_EQ(rows.at("integrator.volume.radius").at("reason"), all.at("chosen").at(0).at("reason"));
   EXPECT_FALSE(rows.at("integrator.volume.radius").at("meaning").get<std::string>().empty());

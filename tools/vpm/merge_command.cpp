@@ -30,7 +30,7 @@ RenderJob job_of(const Merged& merged, const std::string& scene) {
   if (!std::filesystem::exists(path))
     throw InputError(
         fmt::format("cannot merge '{}': its scene '{}' is not there; name it with --scene", merged.first, path));
-  RenderJob job = load_scene(path, origin.overrides, origin.automatic ? LeftOut::automatic : LeftOut::usual);
+  RenderJob job = load_scene(path, origin.overrides, origin.automatic ? LeftOut::automatic : LeftOut::defaults);
   job.settings.seed = origin.seed;
   if (job.automatic.any()) choose_again(job, choices_of(merged.whole.identity));
   if (const Identity now = identity_of(job); now != merged.whole.identity)

@@ -143,8 +143,8 @@ void check_range(const RenderOptions& options) {
 
 RenderJob load_for_render(const RenderOptions& options, const GridLoader& load) {
   check_range(options);
-  RenderJob job =
-      load_scene(options.scene, overrides_of(options), options.automatic ? LeftOut::automatic : LeftOut::usual, load);
+  RenderJob job = load_scene(options.scene, overrides_of(options),
+                             options.automatic ? LeftOut::automatic : LeftOut::defaults, load);
   apply_run_options(options, job);
   return job;
 }

@@ -108,7 +108,7 @@ int view_command(const ViewOptions& options) {
   const std::string name = scene_name(options);
   const ViewScene made = make_scene(options);
   RenderJob job = load_scene(SceneText{name, made.text}, overrides_of_view(options),
-                             options.passes ? LeftOut::automatic : LeftOut::usual, loader_of(made));
+                             options.passes ? LeftOut::automatic : LeftOut::defaults, loader_of(made));
   apply_run_options(options, job);
   for (const std::string& note : made.notes) job.notes.push_back(note);
   if (options.passes && job.settings.integrator == Integrator::photon)

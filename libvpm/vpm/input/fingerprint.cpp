@@ -70,9 +70,9 @@ bool is_setting(const std::string& key) { return key.starts_with("render.") || k
 
 /// The settings that say which passes are rendered.
 std::set<std::string> keys_of_passes() {
-  RenderSettings usual;
+  RenderSettings defaults;
   std::set<std::string> keys;
-  for (const Setting& setting : describe(usual))
+  for (const Setting& setting : describe(defaults))
     if (setting.of_passes) keys.insert(setting.key);
   return keys;
 }

@@ -39,23 +39,23 @@ Filter read_filter(TableReader& film) {
   filter.kind = film.choice<FilterKind>(
       "filter", {{"box", FilterKind::box}, {"tent", FilterKind::tent}, {"gaussian", FilterKind::gaussian}},
       FilterKind::box);
-  const float usual = filter.kind == FilterKind::box ? 0.5f : filter.kind == FilterKind::tent ? 1.0f : 1.5f;
-  filter.radius = film.number("filter_radius", {0.0, 32.0, true, false}, usual);
+  const float default_radius = filter.kind == FilterKind::box ? 0.5f : filter.kind == FilterKind::tent ? 1.0f : 1.5f;
+  filter.radius = film.number("filter_radius", {0.0, 32.0, true, false}, default_radius);
   return filter;
 }
 
 /// What a render has that says nothing of a setting.
 void leave_out(const Setting& setting, LeftOut left_out, AutomaticSettings& automatic) {
-  setting.set(setting.usual);
-  if (left_out == LeftOut::automatic && setting.automatic && !setting.stays) automatic.keys.insert(setting.key);
-  if (setting.usually_chosen && !automatic.keys.contains(setting.key)) automatic.left_out.insert(setting.key);
+  setting.set(setting.default_value);
+  if (left_out == LeftOut::automatic && setting.automatic && !setting.keeps_default) automatic.keys.insert(setting.key);
+  if (setting.default_chosen && !automatic.keys.contains(setting.key)) automatic.default_radii.insert(setting.key);
 }
 
 /// An integrator that is to be chosen is chosen with all that it may choose.
 void choose_all(RenderSettings& s, AutomaticSettings& automatic) {
   for (const Setting& setting : describe(s)) {
-    if (setting.table().starts_with("integrator")) setting.set(setting.usual);
-    if (setting.automatic && !setting.stays) automatic.keys.insert(setting.key);
+    if (setting.table().starts_with("integrator")) setting.set(setting.default_value);
+    if (setting.automatic && !setting.keeps_default) automatic.keys.insert(setting.key);
   }
 }
 
@@ -81,7 +81,7 @@ bool read_next(SettingTables& tables, ReplacedKeys& replaced, LeftOut left_out, 
       continue;
     }
     const std::optional<SettingValue> value = read_value(*table, setting);
-    setting.set(value.value_or(setting.usual));
+    setting.set(value.value_or(setting.default_value));
     if (!value) automatic.keys.insert(setting.key);
     return true;
   }
@@ -136,8 +136,8 @@ RenderSettings read_settings(TableReader& root, const Document& document, const 
     }
   const bool chosen = job.automatic.keys.contains(kIntegratorKey);
   tables.finish(chosen ? kAuto : word_of(s.integrator), replaced);
-  job.left_out = replaced.note();
-  if (!job.left_out.empty()) job.notes.push_back(job.left_out);
+  job.replaced = replaced.note();
+  if (!job.replaced.empty()) job.notes.push_back(job.replaced);
   try {
     validate(s, facts);
     refuse_blocks_of_chosen_photons(s, job.automatic);

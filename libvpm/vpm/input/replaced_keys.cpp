@@ -43,10 +43,10 @@ std::set<std::string> keys_with(const Values& values) {
 }
 
 /// The default of a key that nothing is said of.
-std::string usual_of(const std::string& key, const Values& values) {
+std::string default_of(const std::string& key, const Values& values) {
   RenderSettings settings = settings_with(values);
   const std::optional<Setting> setting = find_setting(settings, key);
-  return setting ? text_of(setting->usual) : "";
+  return setting ? text_of(setting->default_value) : "";
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ ReplacedKeys::ReplacedKeys(const Document& document) : document_(document) {
     if (by->before) values[by->key] = *by->before;
   }
   for (const Replacement& by : document.replaced) {
-    Change change{&by, by.before ? *by.before : usual_of(by.key, values), keys_with(values), {}};
+    Change change{&by, by.before ? *by.before : default_of(by.key, values), keys_with(values), {}};
     values[by.key] = by.after;
     const std::set<std::string> after = keys_with(values);
     std::set_difference(change.keys.begin(), change.keys.end(), after.begin(), after.end(),

@@ -222,7 +222,7 @@ RenderJob job_with(Document document, const std::vector<std::string>& options, L
   RenderJob job = job_of(document, given, left_out, load);
   job.source = document.sources.front()->name;
   job.overrides = options;
-  job.left_out_is_automatic = left_out == LeftOut::automatic;
+  job.chooses_defaults = left_out == LeftOut::automatic;
   return job;
 }
 

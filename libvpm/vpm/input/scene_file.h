@@ -18,7 +18,7 @@ namespace vpm {
 /// current one. `load` is called for each grid; empty: load_grid(). Throws InputError for anything that is not right,
 /// with file:line:column, or the option.
 RenderJob load_scene(const std::string& path, const std::vector<std::string>& overrides = {},
-                     LeftOut left_out = LeftOut::usual, const GridLoader& load = {});
+                     LeftOut left_out = LeftOut::defaults, const GridLoader& load = {});
 
 /// The same options, those that name components first, and the integrator's before others': so the order in which a
 /// user writes them does not matter.
@@ -34,6 +34,6 @@ struct SceneText {
 };
 /// The same of a scene in memory. The given parts must live until then, and no longer.
 RenderJob load_scene(const SceneText& scene, const std::vector<std::string>& overrides = {},
-                     LeftOut left_out = LeftOut::usual, const GridLoader& load = {});
+                     LeftOut left_out = LeftOut::defaults, const GridLoader& load = {});
 
 }  // namespace vpm

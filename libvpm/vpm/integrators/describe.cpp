@@ -66,7 +66,7 @@ RenderSettings settings_with(const std::map<std::string, std::string>& values) {
       if (!done.insert(setting.key).second) continue;
       const auto given = values.find(setting.key);
       const std::optional<SettingValue> value = given == values.end() ? std::nullopt : parse(setting, given->second);
-      setting.set(value.value_or(setting.usual));
+      setting.set(value.value_or(setting.default_value));
       if (value) return true;
     }
     return false;

@@ -18,7 +18,7 @@ namespace {
 void check_values(RenderSettings settings) {
   for (const Setting& setting : describe(settings)) {
     const SettingValue value = setting.get();
-    if (value == setting.usual) continue;
+    if (value == setting.default_value) continue;
     if (const std::string wrong = outside_of(setting.domain, value); !wrong.empty())
       throw SettingError(setting.key, fmt::format("'{}' of [{}] {}", setting.name(), setting.table(), wrong), "");
   }

@@ -39,7 +39,7 @@ std::string as_name(std::string text) {
 /// A default that stands for no value of its own, as that of radii, is called so.
 std::string value_of(const Setting& setting) {
   const SettingValue value = setting.get();
-  return value == setting.usual && !outside_of(setting.domain, value).empty() ? "default" : text_of(value);
+  return value == setting.default_value && !outside_of(setting.domain, value).empty() ? "default" : text_of(value);
 }
 
 }  // namespace

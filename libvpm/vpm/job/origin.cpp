@@ -47,7 +47,7 @@ uint64_t number_of(std::string_view text) {
 
 Origin origin_of(const RenderJob& job) {
   const std::string scene = job.source.empty() ? "" : std::filesystem::absolute(job.source).string();
-  return {scene, job.overrides, job.left_out_is_automatic, job.settings.seed};
+  return {scene, job.overrides, job.chooses_defaults, job.settings.seed};
 }
 
 Identity fields_of(const Origin& origin) {

@@ -46,7 +46,7 @@ std::string what_fits_text(const std::string& photons, const std::string& radius
 }
 
 /// The keys of radii that the settings do not give, whichever maps there are: in code that may change.
-AutomaticSettings::Keys radii_left_out(const RenderSettings& settings) {
+AutomaticSettings::Keys default_radii_of(const RenderSettings& settings) {
   AutomaticSettings::Keys keys;
   if (!settings.volume.radius.is_given()) keys.insert("integrator.volume.radius");
   if (!settings.surface.radius.is_given()) keys.insert("integrator.surface.radius");
@@ -76,7 +76,7 @@ void choose_automatic(RenderJob& job, const Clock& clock) {
   settings.until.seconds = asked;
   job.settings = settings;
   job.choices = std::move(chosen.choices);
-  if (!chosen.left_out.empty()) job.notes.push_back(std::move(chosen.left_out));
+  if (!chosen.not_chosen.empty()) job.notes.push_back(std::move(chosen.not_chosen));
   if (!job.choices.empty())
     job.notes.push_back(fmt::format("choosing settings took {:.2g} s", clock.seconds() - begin));
   note_choices(job);
@@ -87,15 +87,15 @@ void choose_automatic(RenderJob& job, const Clock& clock) {
 RenderJob make_job(AssembledScene assembled, const RenderSettings& settings) {
   return {.scene = std::move(assembled.scene),
           .settings = settings,
-          .automatic = {.left_out = radii_left_out(settings)},
+          .automatic = {.default_radii = default_radii_of(settings)},
           .light_names = std::move(assembled.light_names),
           .notes = std::move(assembled.notes)};
 }
 
 void choose(RenderJob& job, const Clock& clock) {
   // Of scenes made in code radii may have been given since.
-  const AutomaticSettings::Keys left_out = radii_left_out(job.settings);
-  std::erase_if(job.automatic.left_out, [&](const std::string& key) { return !left_out.contains(key); });
+  const AutomaticSettings::Keys default_radii = default_radii_of(job.settings);
+  std::erase_if(job.automatic.default_radii, [&](const std::string& key) { return !default_radii.contains(key); });
   if (!job.automatic.any()) return;
   validate(job.settings, facts_of(job.scene));
   const double asked = job.settings.until.seconds;
@@ -116,7 +116,7 @@ void choose_again(RenderJob& job, std::vector<Choice> choices) {
   // A radius that was left out then may be given now.
   std::erase_if(choices, [&](const Choice& choice) {
     const std::optional<Setting> setting = find_setting(job.settings, choice.key);
-    return setting && setting->usually_chosen && !job.automatic.has(choice.key);
+    return setting && setting->default_chosen && !job.automatic.has(choice.key);
   });
   job.choices = std::move(choices);
   for (const Choice& choice : job.choices) set_chosen(job.settings, choice.key, choice.value);

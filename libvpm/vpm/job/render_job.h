@@ -28,10 +28,10 @@ struct RenderJob {
   std::vector<Choice> choices{};         // what it chose
   std::vector<std::string> light_names;  // one for each of Scene::lights; "" where it has none
   std::vector<std::string> notes;        // what a user should know of, e.g. clamped densities
-  std::string left_out{};                // of these: which options left out what of the file; ""
+  std::string replaced{};                // of these: which options left out what of the file; ""
   std::string source{};                  // the scene file; empty: made in code
   std::vector<std::string> overrides{};  // "key.path=value" options that changed that file
-  bool left_out_is_automatic = false;    // was what the file leaves out to be chosen, where that is possible?
+  bool chooses_defaults = false;         // was what the file leaves out to be chosen, where that is possible?
   std::vector<std::string> files{};      // that it names: grids, meshes, textures, environments
   std::string hash{};                    // other scenes and settings of files have another: of the scene
                                          // file with its options, and of the bytes of those files, 16 hex digits; of

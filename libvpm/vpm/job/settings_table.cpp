@@ -13,11 +13,11 @@ namespace {
 
 struct Row {
   std::vector<std::string> tables;
-  std::string name, with, meaning, values, usual;
+  std::string name, with, meaning, values, default_text;
 
   bool same_but_for_table(const Row& other) const {
     return name == other.name && with == other.with && meaning == other.meaning && values == other.values &&
-           usual == other.usual;
+           default_text == other.default_text;
   }
 };
 
@@ -51,7 +51,7 @@ std::vector<Row> rows() {
   for (const SettingOfSome& each : every_setting()) {
     const Setting& setting = each.setting;
     const Row row{{setting.table()}, setting.name(),     all_of(each),
-                  setting.meaning,   values_of(setting), usual_of(setting)};
+                  setting.meaning,   values_of(setting), default_of(setting)};
     const auto alike = std::find_if(all.begin(), all.end(), [&](const Row& r) { return r.same_but_for_table(row); });
     if (alike != all.end())
       alike->tables.push_back(setting.table());
@@ -69,9 +69,9 @@ std::string values_of(const Setting& setting) {
   return setting.automatic ? text + ", or " + word(kAuto) : text;
 }
 
-std::string usual_of(const Setting& setting) {
-  if (!setting.usual_text.empty()) return std::string(setting.usual_text);
-  const std::string text = text_of(setting.usual);
+std::string default_of(const Setting& setting) {
+  if (!setting.default_text.empty()) return std::string(setting.default_text);
+  const std::string text = text_of(setting.default_value);
   if (std::holds_alternative<Words>(setting.domain)) return word(text);
   return std::holds_alternative<Flags>(setting.domain) ? "`" + text + "`" : text;
 }
@@ -82,7 +82,7 @@ std::string settings_table() {
   for (const Row& row : rows()) {
     const std::string tables = fmt::format("`[{}]`", fmt::join(row.tables, "]`, `["));
     table += fmt::format("| {}| `{}` | {}| {} | {} | {} |\n", tables == last ? "" : tables + " ", row.name,
-                         row.with.empty() ? "" : row.with + " ", row.meaning, row.values, row.usual);
+                         row.with.empty() ? "" : row.with + " ", row.meaning, row.values, row.default_text);
     last = tables;
   }
   return table;

@@ -40,13 +40,13 @@ Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, c
   const auto strategy = [&] { chosen.choices.push_back(choose_strategy(scene, settings)); };
   if (automatic.has("integrator.distance.type") && !scene.media.empty() &&
       !time.clock.finish_by(time.end_of_next(kParts), strategy))
-    chosen.left_out = "the time does not allow to choose a distance strategy";
+    chosen.not_chosen = "the time does not allow to choose a distance strategy";
   std::vector<Choice> more;
   if (asks_for_trials(scene, automatic, settings)) {
     more = choose_by_trials(scene, automatic, time, settings);
-  } else if (std::string left_out = choose_and_scale_records(scene, automatic, time, settings, more);
-             !left_out.empty()) {
-    chosen.left_out = std::move(left_out);
+  } else if (std::string not_chosen = choose_and_scale_records(scene, automatic, time, settings, more);
+             !not_chosen.empty()) {
+    chosen.not_chosen = std::move(not_chosen);
   }
   for (Choice& choice : more) chosen.choices.push_back(std::move(choice));
   // The integrator first, as it decides which others there are.

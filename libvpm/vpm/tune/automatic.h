@@ -13,7 +13,7 @@ namespace vpm {
 /// What was chosen, and what was not for want of time and has its default: a sentence, or "".
 struct Chosen {
   std::vector<Choice> choices;
-  std::string left_out;
+  std::string not_chosen;
 };
 
 /// Chooses what is asked for, after a short pilot, and puts it into the settings. What is chosen is a pure function of

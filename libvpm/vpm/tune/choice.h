@@ -14,18 +14,18 @@ namespace vpm {
 /// chosen is never changed.
 struct AutomaticSettings {
   using Keys = std::set<std::string, std::less<>>;
-  Keys keys{};      // those that are "auto"
-  Keys left_out{};  // radii that nothing is said of: their defaults go by where photons lie
+  Keys keys{};           // those that are "auto"
+  Keys default_radii{};  // those that nothing is said of: they go by where photons lie
 
-  bool any() const { return !keys.empty() || !left_out.empty(); }
-  bool has(std::string_view key) const { return keys.contains(key) || left_out.contains(key); }
+  bool any() const { return !keys.empty() || !default_radii.empty(); }
+  bool has(std::string_view key) const { return keys.contains(key) || default_radii.contains(key); }
   /// Those that a file could give values: where the integrator is "auto", it alone.
   Keys to_be_named() const { return keys.contains("integrator.type") ? Keys{"integrator.type"} : keys; }
 };
 
-/// What a value is that may be "auto" and that a scene file and its options leave out: its default, or "auto". Where
+/// What a setting that may be "auto" is where a scene file and its options leave it out: its default, or "auto". Where
 /// they do not name the integrator, `automatic` drops all that they say of it.
-enum class LeftOut { usual, automatic };
+enum class LeftOut { defaults, automatic };
 
 /// When choosing is to have ended, s on a clock; infinite where it may take any time.
 struct ChoosingTime {

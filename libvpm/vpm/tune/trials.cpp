@@ -311,8 +311,8 @@ std::vector<Choice> choose_by_trials(const Scene& scene, const AutomaticSettings
   if (trials.size() == 1) {
     Trial& only = trials.front();
     reason = "no other way is open" + refused;
-    const std::string left_out = choose_and_scale_records(scene, automatic, time, only.settings, only.choices);
-    if (!left_out.empty()) reason += "; " + left_out;
+    const std::string not_chosen = choose_and_scale_records(scene, automatic, time, only.settings, only.choices);
+    if (!not_chosen.empty()) reason += "; " + not_chosen;
   } else {
     reason = put_best_first(scene, automatic, time, trials) + refused;
   }

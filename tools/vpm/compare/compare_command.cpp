@@ -146,8 +146,8 @@ void print_left_out(const std::vector<Contest>& contests, const ComparisonPlan& 
   std::set<std::string> printed;
   for (const Contest& contest : contests)
     for (size_t m = 0; m < plan.methods.size(); ++m)
-      if (const std::string& left_out = contest.methods[m]->loaded.left_out; !left_out.empty())
-        if (const std::string note = fmt::format("note: method '{}': {}\n", plan.methods[m].name, left_out);
+      if (const std::string& replaced = contest.methods[m]->loaded.replaced; !replaced.empty())
+        if (const std::string note = fmt::format("note: method '{}': {}\n", plan.methods[m].name, replaced);
             printed.insert(note).second)
           fmt::print(stderr, "{}", note);
 }

@@ -59,8 +59,8 @@ Json shown_settings(const RenderReport& report) {
     if (setting.of_passes) continue;
     rows.push_back({{"key", setting.key},
                     {"value", text_of(setting.get())},
-                    {"usual", usual_of(setting)},
-                    {"is_usual", setting.get() == setting.usual},
+                    {"default", default_of(setting)},
+                    {"is_default", setting.get() == setting.default_value},
                     {"meaning", setting.meaning},
                     {"values", values_of(setting)},
                     {"reason", reason_of(report.json, setting.key)}});

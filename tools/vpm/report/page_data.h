@@ -8,7 +8,7 @@
 
 namespace vpm::tools {
 
-/// A row for each setting of the report: its `key`, `value` and `usual` value, whether `is_usual`, `meaning` and
+/// A row for each setting of the report: its `key`, `value` and `default` value, whether `is_default`, `meaning` and
 /// allowed `values` in Markdown, and the `reason` of its choice where the render chose it.
 Json shown_settings(const RenderReport& report);
 

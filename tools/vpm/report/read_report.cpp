@@ -52,7 +52,7 @@ std::string text_of_json(const Json& value) { return value.is_string() ? value.g
 
 /// The value of a setting, which may also be the default where that is outside of its domain.
 std::optional<SettingValue> value_of(const Setting& setting, const std::string& text) {
-  return text == text_of(setting.usual) ? setting.usual : parse(setting, text);
+  return text == text_of(setting.default_value) ? setting.default_value : parse(setting, text);
 }
 
 /// Takes the first setting of the report that these settings have. Is there one?

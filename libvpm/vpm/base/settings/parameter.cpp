@@ -17,7 +17,7 @@ const Parameter* find(std::span<const Parameter> list, std::string_view name) {
 
 float value_in(const Parameters& given, const Parameter& parameter) {
   const auto found = given.find(parameter.name);
-  return found == given.end() ? parameter.usual : found->second;
+  return found == given.end() ? parameter.default_value : found->second;
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ void describe(std::span<const Parameter> list, Parameters& given, Description& d
                                      "",
                                      std::string(parameter.meaning),
                                      Numbers{parameter.range},
-                                     parameter.usual,
+                                     parameter.default_value,
                                      [&given, parameter] { return SettingValue(value_in(given, parameter)); },
                                      [&given, parameter](const SettingValue& value) {
                                        set_member(given[std::string(parameter.name)], value);

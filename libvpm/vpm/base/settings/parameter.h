@@ -17,7 +17,7 @@ class Description;
 /// A number that a component has.
 struct Parameter {
   std::string_view name;
-  float usual;
+  float default_value;
   Range range;
   std::string_view unit;
   std::string_view meaning;  // one line of Markdown

@@ -30,7 +30,7 @@ std::optional<SettingValue> value_in(const Setting& setting, const std::string& 
   if (std::holds_alternative<Words>(setting.domain) || std::holds_alternative<WordSet>(setting.domain)) return text;
   if (std::holds_alternative<Integers>(setting.domain)) return number_in<uint64_t>(text);
   if (std::holds_alternative<Numbers>(setting.domain))
-    return std::holds_alternative<float>(setting.usual) ? number_in<float>(text) : number_in<double>(text);
+    return std::holds_alternative<float>(setting.default_value) ? number_in<float>(text) : number_in<double>(text);
   if (text == "true" || text == "false") return text == "true";
   return std::nullopt;
 }

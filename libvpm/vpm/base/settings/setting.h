@@ -55,11 +55,11 @@ std::string outside_of(const Domain& domain, const SettingValue& value);
 /// What a description may say besides.
 struct SettingTraits {
   std::string_view unit = "";
-  std::string_view usual_text = "";  // for people, where the default's value says little
-  bool automatic = false;            // may it be kAuto?
-  bool stays = false;                // of those: does it keep its default where all that is left out is to be chosen?
-  bool usually_chosen = false;       // is its default chosen, see choose_default_radii()?
-  bool of_passes = false;            // does it say which passes are rendered, not what each estimates?
+  std::string_view default_text = "";  // for people, where the default's value says little
+  bool automatic = false;              // may it be "auto", kAuto, so that a render chooses it?
+  bool keeps_default = false;          // of those: is it chosen only where "auto" stands, and not where it is left out?
+  bool default_chosen = false;         // is the default itself chosen, see choose_default_radii()?
+  bool of_passes = false;              // does it say which passes are rendered, not what each estimates?
 };
 
 /// A setting of an object, which must outlive it.
@@ -67,7 +67,7 @@ struct Setting : SettingTraits {
   std::string key;      // with the tables that it stands in: "integrator.volume.radius"
   std::string meaning;  // one line of Markdown
   Domain domain;        // besides the default, which is always allowed
-  SettingValue usual;   // the default
+  SettingValue default_value;
   std::function<SettingValue()> get;
   std::function<void(const SettingValue&)> set;  // a value of the domain; numbers of either precision serve for both
 
@@ -159,18 +159,18 @@ class Description {
   std::vector<Setting> settings_;
 };
 
-/// Describes members of a structure, whose defaults are those of `usual`.
+/// Describes members of a structure, whose defaults are those of `defaults`.
 template <class Struct>
 class Members {
  public:
-  Members(Struct& of, Description& description, Struct usual = {})
-      : of_(&of), usual_(std::move(usual)), description_(&description) {}
+  Members(Struct& of, Description& description, Struct defaults = {})
+      : of_(&of), defaults_(std::move(defaults)), description_(&description) {}
 
   template <class T>
   void add(std::string_view name, T Struct::*member, Domain domain, std::string meaning,
            SettingTraits traits = {}) const {
     T& held = of_->*member;
-    description_->add(name, {traits, "", std::move(meaning), std::move(domain), value_of_member(usual_.*member),
+    description_->add(name, {traits, "", std::move(meaning), std::move(domain), value_of_member(defaults_.*member),
                              [&held] { return value_of_member(held); },
                              [&held](const SettingValue& value) { set_member(held, value); }});
   }
@@ -196,13 +196,13 @@ class Members {
       for (const Info& info : infos)
         held.set(info.*item, std::find(words.begin(), words.end(), info.name) != words.end());
     };
-    description_->add(name, {traits, "", std::move(meaning), WordSet{names_of(infos)}, text(usual_.*member),
+    description_->add(name, {traits, "", std::move(meaning), WordSet{names_of(infos)}, text(defaults_.*member),
                              [&held, text] { return SettingValue(text(held)); }, assign});
   }
 
  private:
   Struct* of_;
-  Struct usual_;
+  Struct defaults_;
   Description* description_;
 };
 

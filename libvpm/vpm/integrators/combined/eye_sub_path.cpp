@@ -12,8 +12,8 @@
 namespace vpm {
 
 EyeSubPath::EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
-                       std::vector<MergeSegment>* left_out, size_t number)
-    : c_(context), work_(work), parts_(parts), left_out_(left_out), number_(number) {
+                       std::vector<MergeSegment>* deferred, size_t number)
+    : c_(context), work_(work), parts_(parts), deferred_(deferred), number_(number) {
   at_.state = {ray, medium_of_ray(context.scene, context.scene.camera_medium, ray), Rgb(1.0f)};
   at_.from = depart_from_camera(context.counts, ray, density_of(ray));
 }
@@ -196,7 +196,7 @@ void EyeSubPath::merge_along_ray(const Along& along, const Interval& interval) {
                              glm::distance(from.point, along.ray.origin),
                              from.adjacent > 0.0 ? from.adjacent / from.forward : 0.0,
                              number_};
-  if (left_out_ && from.camera && c_.scene.media[along.medium].homogeneous()) return left_out_->push_back(segment);
+  if (deferred_ && from.camera && c_.scene.media[along.medium].homogeneous()) return deferred_->push_back(segment);
   for (const Technique technique : kRayTechniques) {
     const Merged merged = merge_along(c_, technique, segment, work_);
     radiance_ += merged.light;
@@ -240,15 +240,15 @@ KernelEstimate combined_radiance(const CombinedContext& context, const Ray& came
 }
 
 void combined_radiance(const CombinedContext& context, std::span<EyeRay> rays, TechniqueParts* parts) {
-  thread_local std::vector<MergeSegment> left_out;  // so that rays allocate nothing
-  left_out.clear();
+  thread_local std::vector<MergeSegment> deferred;  // so that rays allocate nothing
+  deferred.clear();
   for (size_t i = 0; i < rays.size(); ++i)
     rays[i].radiance =
-        EyeSubPath(context, rays[i].ray, rays[i].work, parts ? &parts[i] : nullptr, &left_out, i).follow();
-  std::sort(left_out.begin(), left_out.end(), [](const MergeSegment& a, const MergeSegment& b) {
+        EyeSubPath(context, rays[i].ray, rays[i].work, parts ? &parts[i] : nullptr, &deferred, i).follow();
+  std::sort(deferred.begin(), deferred.end(), [](const MergeSegment& a, const MergeSegment& b) {
     return std::tie(a.medium, a.number, a.before) < std::tie(b.medium, b.number, b.before);
   });
-  const std::span<const MergeSegment> all(left_out);
+  const std::span<const MergeSegment> all(deferred);
   for (size_t first = 0, next = 0; first < all.size(); first = next) {
     while (next < all.size() && next - first < kEyeRays && all[next].medium == all[first].medium) ++next;
     merge_segments(context, all.subspan(first, next - first), rays, parts);

@@ -16,10 +16,10 @@ struct MergeSegment;
 
 class EyeSubPath {
  public:
-  /// `parts` may be null. What photons and beams bring to the camera's ray in homogeneous media before anything turns
-  /// it is left out: its segments are added to `left_out`, with `number`; unless that is null.
+  /// `parts` may be null. Unless `deferred` is, merges along the camera's ray in homogeneous media, before anything turns
+  /// it, are left to the caller: their segments are added there, with `number`.
   EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
-             std::vector<MergeSegment>* left_out = nullptr, size_t number = 0);
+             std::vector<MergeSegment>* deferred = nullptr, size_t number = 0);
 
   KernelEstimate follow();
 
@@ -102,7 +102,7 @@ class EyeSubPath {
   const CombinedContext& c_;
   EyeWork& work_;
   TechniqueParts* parts_;
-  std::vector<MergeSegment>* left_out_;
+  std::vector<MergeSegment>* deferred_;
   size_t number_;
   Branch at_;
   std::array<Branch, kMostWaiting> branches_;  // the first `waiting_`

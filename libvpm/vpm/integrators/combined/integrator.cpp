@@ -29,7 +29,7 @@ void describe_combined(RenderSettings& s, Description& d) {
   Members<CombinedSettings> of(s.combined, d);
   of.add_set("techniques", &CombinedSettings::techniques, std::span<const TechniqueInfo>(kTechniques),
              &TechniqueInfo::technique, "which techniques find light; what none of them can find is missing",
-             {.usual_text = "all", .automatic = true});
+             {.default_text = "all", .automatic = true});
   of.add("heuristic", &CombinedSettings::heuristic,
          "how techniques share a path that several find: by their densities, by the squares of these, or by densities "
          "where eye sub-paths end at the first place that does not only mirror or refract, if merges find all light "

@@ -32,11 +32,13 @@ void describe_photons(PhotonSettings& photons, Description& d) {
   d.in("integrator.photons");
   const Members<PhotonSettings> of(photons, d);
   of.add("stored", &PhotonSettings::stored, Integers{}, "photons per pass and map at which tracing stops; 0: no limit");
-  PhotonSettings usual;
-  if (photons.stored > 0) usual.emitted = 0;
-  Members<PhotonSettings>(photons, d, usual)
+  PhotonSettings defaults;
+  if (photons.stored > 0) defaults.emitted = 0;
+  Members<PhotonSettings>(photons, d, defaults)
       .add("emitted", &PhotonSettings::emitted, Integers{}, "photons per pass; 0: until the maps are full",
-           {.usual_text = "200000, or 0 where `stored` is above 0", .automatic = true, .stays = photons.stored > 0});
+           {.default_text = "200000, or 0 where `stored` is above 0",
+            .automatic = true,
+            .keeps_default = photons.stored > 0});
   of.add("block", &PhotonSettings::block, Integers{},
          "> 0: the photons of a pass are traced, gathered and dropped in blocks of at most so many, so that memory "
          "holds one block at a time; the picture is the same, and eye rays are followed again for each block, see "

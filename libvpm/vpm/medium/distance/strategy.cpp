@@ -44,9 +44,9 @@ std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings&
   return info ? info->make(numbers_of(info->parameters, settings.parameters), use) : nullptr;
 }
 
-void describe(DistanceSettings& settings, std::vector<std::string> types, const std::string& usual,
+void describe(DistanceSettings& settings, std::vector<std::string> types, const std::string& default_type,
               Description& description) {
-  Members(settings, description, {usual})
+  Members(settings, description, {default_type})
       .add("type", &DistanceSettings::strategy, Words{std::move(types)},
            "how photons and paths fly; [papers/distance-strategies.md](../papers/distance-strategies.md) says what "
            "each strategy is and how it fails. `\"homogeneous\"` is refused in grids",

@@ -88,7 +88,7 @@ std::vector<std::string> strategies_that(bool StrategyInfo::*is);
 std::unique_ptr<DistanceStrategy> make_distance_strategy(const DistanceSettings& settings, const FlightUse& use = {});
 
 /// Describes `type`, of these words, and the parameters of the strategy that it names.
-void describe(DistanceSettings& settings, std::vector<std::string> types, const std::string& usual,
+void describe(DistanceSettings& settings, std::vector<std::string> types, const std::string& default_type,
               Description& description);
 
 }  // namespace vpm

@@ -20,21 +20,21 @@ function meaningCell({meaning, values, reason}) {
   return cell;
 }
 
-const valueCell = ({value, is_usual: isUsual}) => element(isUsual ? 'span' : 'strong', {}, value);
+const valueCell = ({value, is_default: isUsual}) => element(isUsual ? 'span' : 'strong', {}, value);
 
 function settingsTable(settings) {
   const rows = settings.map((row, place) => ({...row, place}));
   const columns = [
     {title: 'setting', words: true, key: row => row.place, cell: row => element('code', {}, row.key)},
     {title: 'value', words: true, key: row => row.value, cell: valueCell},
-    {title: 'default', words: true, key: row => row.usual, cell: row => fromMarkdown(row.usual)},
+    {title: 'default', words: true, key: row => row.default, cell: row => fromMarkdown(row.default)},
     {title: 'what it is', words: true, key: row => row.meaning, cell: meaningCell},
   ];
   return sortableTable('Settings of the render', columns, rows);
 }
 
 function aboutSettings(settings) {
-  const chosen = settings.filter(row => row.reason).length, changed = settings.filter(row => !row.is_usual).length;
+  const chosen = settings.filter(row => row.reason).length, changed = settings.filter(row => !row.is_default).length;
   return `${changed} of ${settings.length} are not the default; these are bold. ` +
       `${chosen === 0 ? 'None' : chosen} of them ${chosen === 1 ? 'was' : 'were'} chosen by the render. ` +
       'Settings that would change nothing are left out. Meanings are those of scenes/README.md, where what is "below" is found.';

@@ -48,7 +48,7 @@ std::string meaning_of_types() {
 }
 
 void describe_type(VolumeSettings& settings, Description& description) {
-  description.add("type", {{.automatic = true, .stays = true},
+  description.add("type", {{.automatic = true, .keeps_default = true},
                            "",
                            meaning_of_types(),
                            Words{names_of(volume_estimators())},
@@ -64,9 +64,9 @@ void describe_radius(AskedGather& gather, const char* meaning, Description& desc
   Members<AskedGather>(gather, description)
       .add("radius", &AskedGather::radius, Numbers{{1e-10, 1e9, false, false}}, meaning,
            {.unit = "m",
-            .usual_text = "goes by where photons lie, see above",
+            .default_text = "goes by where photons lie, see above",
             .automatic = true,
-            .usually_chosen = true});
+            .default_chosen = true});
 }
 
 void describe_kernel(AskedGather& gather, Description& description) {
