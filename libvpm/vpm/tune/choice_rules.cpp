@@ -14,8 +14,8 @@
 namespace vpm {
 namespace {
 
-constexpr double kHalfPixel = 0.5;     // pixels: the least radius
-constexpr double kLeastShare = 0.125;  // of what the eye pass costs, for photons
+constexpr double kHalfPixel = 0.5;           // pixels: the least radius
+constexpr double kLeastPhotonShare = 0.125;  // of what the eye pass costs, for photons
 
 }  // namespace
 
@@ -63,7 +63,7 @@ ChosenCount choose_count(const PassCost& cost, double seconds) {
   double count = balanced;
   std::string reason = fmt::format("tracing and sorting them takes as long as the {}, {:.2g} s", others, rest);
   const auto fit = [&](double passes) { return (seconds / passes - rest) / cost.photon; };  // so many passes
-  const double least = kLeastShare * balanced;
+  const double least = kLeastPhotonShare * balanced;
   if (seconds > 0.0 && fit(kLeastPasses) < balanced) {
     count = std::max(fit(kLeastPasses), least);
     reason =

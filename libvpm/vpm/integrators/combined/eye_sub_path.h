@@ -16,8 +16,8 @@ struct MergeSegment;
 
 class EyeSubPath {
  public:
-  /// `parts` may be null. Unless `deferred` is, merges along the camera's ray in homogeneous media, before anything turns
-  /// it, are left to the caller: their segments are added there, with `number`.
+  /// `parts` may be null. Unless `deferred` is, merges along the camera's ray in homogeneous media, before anything
+  /// turns it, are left to the caller: their segments are added there, with `number`.
   EyeSubPath(const CombinedContext& context, const Ray& ray, EyeWork& work, TechniqueParts* parts,
              std::vector<MergeSegment>* deferred = nullptr, size_t number = 0);
 

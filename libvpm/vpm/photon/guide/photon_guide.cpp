@@ -13,8 +13,8 @@
 namespace vpm {
 namespace {
 
-constexpr float kInside = 1e-3f;      // of a cube's edge: so far within it a place is surely its own
-constexpr float kLeastShare = 1e-4f;  // of the mean importance: what a cube has at least
+constexpr float kInside = 1e-3f;           // of a cube's edge: so far within it a place is surely its own
+constexpr float kLeastImportance = 1e-4f;  // of the mean importance: what a cube has at least
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void ImportanceMap::finish() {
   double sum = 0.0;
   for (const float value : values_) sum += value;
   const float mean = static_cast<float>(sum / static_cast<double>(values_.size()));
-  const float least = mean > 0.0f ? kLeastShare * mean : 1.0f;
+  const float least = mean > 0.0f ? kLeastImportance * mean : 1.0f;
   for (float& value : values_) value = std::max(value, least);
 }
 
