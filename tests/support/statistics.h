@@ -18,6 +18,9 @@ namespace vpm {
 /// The false-alarm rate of a single comparison, unless a test states its own.
 inline constexpr double kFalseAlarms = 1e-6;
 
+/// A uniform number of mean 0 and variance 1.
+inline double unit_noise(Rng& rng) { return std::sqrt(12.0) * (rng.uniform_double() - 0.5); }
+
 /// z-test: the mean of the samples is `expected`.
 inline void expect_mean(const Moments& samples, double expected, double false_alarm_rate, const char* what = "") {
   const double error = std::sqrt(samples.variance_of_mean());

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "support/statistics.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/base/rng.h"
@@ -19,8 +20,6 @@
 
 namespace vpm {
 namespace {
-
-double noise(Rng& rng) { return std::sqrt(12.0) * (rng.uniform_double() - 0.5); }
 
 Image grey(int width, int height, float value) {
   Image image(width, height);
@@ -41,9 +40,9 @@ struct FilmOf {
       Image image(pixels, 1), correction(pixels, 1);
       for (int i = 0; i < pixels; ++i) {
         Rng rng(seed, static_cast<uint64_t>(pass), static_cast<uint64_t>(i));
-        const double off = noise(rng);
+        const double off = unit_noise(rng);
         for (int c = 0; c < 3; ++c) {
-          image.pixels[i][c] = static_cast<float>(c + 1 + bias + sigma * noise(rng));
+          image.pixels[i][c] = static_cast<float>(c + 1 + bias + sigma * unit_noise(rng));
           correction.pixels[i][c] = static_cast<float>(-shown * bias + sigma * off);
         }
       }
@@ -299,7 +298,7 @@ TEST(Film, KeepsTheDigitsOfSmallDifferences) {
     std::vector<float> values;
     Rng rng(5, 0, 0);
     for (int pass = 0; pass < kPasses; ++pass) {
-      values.push_back(static_cast<float>(3.0 * (1.0 + spread * noise(rng))));
+      values.push_back(static_cast<float>(3.0 * (1.0 + spread * unit_noise(rng))));
       Image image(1, 1);
       image.pixels[0] = Rgb(values.back());
       film.add(pass, image);

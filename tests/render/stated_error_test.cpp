@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "support/statistics.h"
 #include "vpm/base/rng.h"
 #include "vpm/image/metrics.h"
 
@@ -12,8 +13,6 @@ namespace vpm {
 namespace {
 
 constexpr int kSide = 12;
-
-double noise(Rng& rng) { return std::sqrt(12.0) * (rng.uniform_double() - 0.5); }
 
 /// A film whose values have the bias that a kernel of radius r causes: `strength` r^order. r shrinks from pass to pass,
 /// as the bias and its correction do. Pixels are noisy by themselves, and in columns of 4 together, as those that share
@@ -27,10 +26,10 @@ Film film_of(int passes, double strength, double order, uint64_t seed) {
     for (int x = 0; x < kSide; ++x)
       for (int block = 0; block < kSide / 4; ++block) {
         Rng rng(seed, static_cast<uint64_t>(pass), static_cast<uint64_t>(x * kSide + block));
-        const double shared = noise(rng), of_correction = noise(rng);
+        const double shared = unit_noise(rng), of_correction = unit_noise(rng);
         const double here = bias * (x % 3 == 0 ? -1.0 : 1.0);
         for (int y = 4 * block; y < 4 * block + 4; ++y) {
-          image.at(x, y) = Rgb(static_cast<float>(1.0 + here + kSigma * (0.7 * shared + 0.7 * noise(rng))));
+          image.at(x, y) = Rgb(static_cast<float>(1.0 + here + kSigma * (0.7 * shared + 0.7 * unit_noise(rng))));
           correction.at(x, y) = Rgb(static_cast<float>(-0.5 * order * here + kSigma * of_correction));
         }
       }
@@ -82,9 +81,9 @@ Film flat_film(const Rgb& colour, double in_common, double own, uint64_t seed) {
   Film film(kSide, kSide);
   for (int pass = 0; pass < 24; ++pass) {
     Rng rng(seed, static_cast<uint64_t>(pass), 0);
-    const double level = 1.0 + in_common * noise(rng);
+    const double level = 1.0 + in_common * unit_noise(rng);
     Image image(kSide, kSide);
-    for (Rgb& pixel : image.pixels) pixel = colour * static_cast<float>(level + own * noise(rng));
+    for (Rgb& pixel : image.pixels) pixel = colour * static_cast<float>(level + own * unit_noise(rng));
     film.add(pass, image);
   }
   return film;
@@ -114,8 +113,8 @@ TEST(StatedError, ABrightSpotIsNoErrorInCommon) {
   for (int pass = 0; pass < 24; ++pass) {
     Image image(kSide, kSide);
     Rng rng(7, static_cast<uint64_t>(pass), 0);
-    for (Rgb& pixel : image.pixels) pixel = Rgb(static_cast<float>(1.0 + 0.05 * noise(rng)));
-    image.at(5, 5) = Rgb(static_cast<float>(1000.0 + 300.0 * noise(rng)));
+    for (Rgb& pixel : image.pixels) pixel = Rgb(static_cast<float>(1.0 + 0.05 * unit_noise(rng)));
+    image.at(5, 5) = Rgb(static_cast<float>(1000.0 + 300.0 * unit_noise(rng)));
     film.add(pass, image);
   }
   const StatedError stated = stated_error(film.errors());

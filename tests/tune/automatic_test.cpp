@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "job/pilot_scenes.h"
 #include "support/borders.h"
 #include "support/simulated_clock.h"
+#include "tune/pilot_scenes.h"
 #include "vpm/base/clock.h"
 #include "vpm/base/counters.h"
 #include "vpm/base/parallel.h"

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "job/pilot_scenes.h"
 #include "support/simulated_clock.h"
+#include "tune/pilot_scenes.h"
 #include "vpm/integrators/describe.h"
 #include "vpm/integrators/integrator.h"
 #include "vpm/render/render.h"
