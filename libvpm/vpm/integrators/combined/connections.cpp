@@ -35,7 +35,7 @@ void EyeSubPath::run_into(int number, const Leg& leg, const Vec3& point, const V
   const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
                                             {point, -at_.state.ray.direction}, normal);
   const Junction at_light{
-      .kind = is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, .normal = normal, .light = true};
+      .kind = is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, .normal = normal, .starts = true};
   const Behind at_eye = techniques_behind(c_.counts, start, leg, at_.from.from, at_.from.point);
   const Behind further = techniques_behind(c_.counts, at_.from, leg, at_light, point);
   add(Technique::connections, seen, share_of_running_into(c_.counts, start, at_eye, at_.from, further));
@@ -73,7 +73,7 @@ void EyeSubPath::sample_light(const PathVertex& at, const Receiver& side, int nu
                                             {point, -incident->direction}, incident->normal);
   const Leg leg{passed, emission.parallel ? 1.0 : incident->distance};
   const Departure eye = depart_into(at, incident->direction, scattered.densities);
-  const Junction at_light{.kind = start.from.kind, .normal = incident->normal, .light = true};
+  const Junction at_light{.kind = start.from.kind, .normal = incident->normal, .starts = true};
   const Behind at_eye = techniques_behind(c_.counts, start, leg, at, at.point);
   const Behind further = techniques_behind(c_.counts, eye, leg, at_light, point);
   const Rgb found = at_.state.throughput * scattered.value * incident->irradiance * passed * weight;

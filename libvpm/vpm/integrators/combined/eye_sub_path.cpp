@@ -116,11 +116,8 @@ Event EyeSubPath::fly_to_event(Rgb& passed) {
 // --- Vertices
 
 PathVertex EyeSubPath::arrive_at(const Event& event, const Rgb& passed) {
-  PathVertex at = vertex_at(c_.scene, event, at_.state);
-  at.leg = leg_to(at_.from, at.point, passed);
+  const PathVertex at = arrive(c_.counts, c_.scene, at_.from, event, at_.state, passed);
   if (at.on_surface) see_emitter(at);
-  at.set_junction(junction_of(c_.counts, c_.scene, at));
-  arrive(c_.counts, at_.from, at);
   return at;
 }
 

@@ -14,7 +14,7 @@ FlightTerms flight_terms(const TechniqueCounts& counts, const Departure& from, c
   terms.offset = glm::distance(from.point, origin);
   terms.parallel = from.parallel;
   if (const double back = arrival(from.from, from.direction, a_metre); back > 0.0) {
-    const double behind = techniques_behind(counts, from, a_metre, there, place).further / counts.weigh(back);
+    const double behind = further_behind(counts, from, a_metre, false) / counts.weigh(back);
     const double weighed = counts.heuristic == Heuristic::power ? std::sqrt(behind) : behind;
     const bool collided = from.from.kind == Junction::Kind::medium;
     terms.back =

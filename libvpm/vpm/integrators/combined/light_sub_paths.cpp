@@ -75,12 +75,7 @@ class LightSubPath {
     if (event.kind == EventKind::escape) lose(state_.throughput, out_.ledger.escaped);
     if (event.kind != EventKind::collision && event.kind != EventKind::surface) return std::nullopt;
     ++(event.kind == EventKind::collision ? out_.ledger.collisions : out_.ledger.surface_hits);
-    PathVertex at = vertex_at(c_.scene, event, state_);
-    at.leg = leg_to(from_, at.point, passed);
-    at.power = state_.throughput;
-    at.set_junction(junction_of(c_.counts, c_.scene, at));
-    arrive(c_.counts, from_, at);
-    return at;
+    return arrive(c_.counts, c_.scene, from_, event, state_, passed);
   }
 
   /// Keeps a part of a flight as a beam.

@@ -18,12 +18,6 @@ double colliding(const Rgb& sigma_t, const Leg& leg) {
 
 }  // namespace
 
-Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex) {
-  if (vertex.specular) return {};
-  if (vertex.on_surface) return {Junction::Kind::surface, vertex.hit.normal};
-  return junction_in(counts, scene.media[vertex.medium], vertex.density);
-}
-
 Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float density) {
   Junction there{Junction::Kind::medium, Vec3(0.0f), medium.sigma_t * density};
   if (medium.grid && density > 0.0f)
@@ -109,9 +103,8 @@ double connections_over(const Departure& departure, const Leg& leg, const Juncti
          departure.place;
 }
 
-Behind techniques_behind(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
-                         const Vec3& point) {
-  double sum = departure.behind + (at.light && counts.light ? 0.0 : departure.unless_straight);
+double further_behind(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, bool starts) {
+  double sum = departure.behind + (starts && counts.light ? 0.0 : departure.unless_straight);
   if (departure.merges) {
     const Rgb& sigma_t = departure.from.sigma_t;
     const bool light = departure.way == SubPath::light;
@@ -119,8 +112,13 @@ Behind techniques_behind(const TechniqueCounts& counts, const Departure& departu
     sum += merges_in_medium(counts, departure.from, passing(sigma_t, from_light), from_eye, departure.sine,
                             departure.first);
   }
+  return counts.weigh(arrival(departure.from, departure.direction, leg) * leg.per_square()) * sum;
+}
+
+Behind techniques_behind(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
+                         const Vec3& point) {
   return {counts.weigh(connections_over(departure, leg, at, point)),
-          counts.weigh(arrival(departure.from, departure.direction, leg) * leg.per_square()) * sum};
+          further_behind(counts, departure, leg, at.starts)};
 }
 
 Behind arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
@@ -135,6 +133,28 @@ void arrive(const TechniqueCounts& counts, const Departure& departure, PathVerte
   vertex.behind = arrive(counts, departure, vertex.leg, vertex, vertex.point);
   vertex.straight = !free && departure.light;
   vertex.seen = !free && departure.camera;
+}
+
+PathVertex arrive(const TechniqueCounts& counts, const Scene& scene, const Departure& departure, const Event& event,
+                  const PathState& state, const Rgb& passed) {
+  PathVertex vertex;
+  vertex.point = state.ray.origin;
+  vertex.travel = state.ray.direction;
+  vertex.medium = state.medium;
+  vertex.leg = leg_to(departure, vertex.point, passed);
+  vertex.power = state.throughput;
+  vertex.on_surface = event.kind == EventKind::surface;
+  if (vertex.on_surface) {
+    vertex.hit = event.hit;
+    vertex.material = material_at(scene, event.hit);
+    vertex.specular = !is_rough(vertex.material);
+    if (!vertex.specular) vertex.set_junction({Junction::Kind::surface, vertex.hit.normal});
+  } else {
+    vertex.density = event.density;
+    vertex.set_junction(junction_in(counts, scene.media[vertex.medium], vertex.density));
+  }
+  arrive(counts, departure, vertex);
+  return vertex;
 }
 
 double passing(const Rgb& sigma_t, const Leg& leg) { return leg.mean() * (1.0 / colliding(sigma_t, leg)); }

@@ -60,7 +60,6 @@ struct TechniqueCounts {
   double weigh(double x) const { return heuristic == Heuristic::power ? x * x : x; }
 };
 
-Junction junction_of(const TechniqueCounts& counts, const Scene& scene, const PathVertex& vertex);
 /// Of a place of that density in a medium.
 Junction junction_in(const TechniqueCounts& counts, const Medium& medium, float density);
 
@@ -106,9 +105,12 @@ Departure depart(const TechniqueCounts& counts, const PathVertex& at, const Vec3
 /// The leg from a departure to a point, m.
 Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance);
 
-/// How many connections are made over the leg to `at`, as weigh() takes it.
+/// How many connections are made over the leg to `at`, not weighed.
 double connections_over(const Departure& departure, const Leg& leg, const Junction& at, const Vec3& point);
-/// What is behind the next vertex, or any point on the way that a merge takes for one, were its density 1.
+/// Behind::further of the next vertex, or of any point on the way that a merge takes for one, were its density 1; does
+/// a path begin there?
+double further_behind(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, bool starts);
+/// All that is behind it, were its density 1.
 Behind techniques_behind(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
                          const Vec3& point);
 /// The same, over its density.
@@ -116,6 +118,9 @@ Behind arrive(const TechniqueCounts& counts, const Departure& departure, const L
               const Vec3& point);
 /// Sets what is behind a vertex that the departure has come to, over its leg.
 void arrive(const TechniqueCounts& counts, const Departure& departure, PathVertex& vertex);
+/// The vertex, a surface or a collision, that a flight has ended at, with that transmittance.
+PathVertex arrive(const TechniqueCounts& counts, const Scene& scene, const Departure& departure, const Event& event,
+                  const PathState& state, const Rgb& passed);
 
 /// How far a leg takes photons for each that collides at its end, m: beams pass where their photons need not collide.
 double passing(const Rgb& sigma_t, const Leg& leg);

@@ -6,22 +6,6 @@
 
 namespace vpm {
 
-PathVertex vertex_at(const Scene& scene, const Event& event, const PathState& at) {
-  PathVertex vertex;
-  vertex.point = at.ray.origin;
-  vertex.travel = at.ray.direction;
-  vertex.medium = at.medium;
-  vertex.on_surface = event.kind == EventKind::surface;
-  if (!vertex.on_surface) {
-    vertex.density = event.density;
-    return vertex;
-  }
-  vertex.hit = event.hit;
-  vertex.material = material_at(scene, event.hit);
-  vertex.specular = !is_rough(vertex.material);
-  return vertex;
-}
-
 Scattered scattered_into(const Scene& scene, const PathVertex& vertex, const Vec3& direction, SubPath way) {
   if (!vertex.on_surface) {
     const MediumProperties there = scene.media[vertex.medium].properties(vertex.point);

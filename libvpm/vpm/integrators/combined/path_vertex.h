@@ -25,7 +25,7 @@ struct Junction {
   Kind kind = Kind::free;
   Vec3 normal{0.0f};   // of a surface, unit
   Rgb sigma_t{0.0f};   // in a medium, at the place, 1/m
-  bool light = false;  // is the light there that a path begins at?
+  bool starts = false;  // is the light there that a path begins at?
   double kept = 1.0;   // in a medium: how many photons are stored there for merges, for each that collides
 };
 
@@ -60,9 +60,6 @@ struct PathVertex : Junction {
 
   void set_junction(const Junction& junction) { static_cast<Junction&>(*this) = junction; }
 };
-
-/// The vertex that a flight has ended at, a surface or a collision, but for what densities see of it.
-PathVertex vertex_at(const Scene& scene, const Event& event, const PathState& at);
 
 /// The densities of a direction in which a sub-path goes on, and with which one that came from there would go back
 /// where this one came from, 1/sr: at a specular vertex, 1 and the factor of refraction.

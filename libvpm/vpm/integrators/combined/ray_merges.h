@@ -9,7 +9,7 @@
 namespace vpm {
 
 /// A part of a ray along which light sub-paths are merged, in a medium that scatters. The ray comes straight from the
-/// camera, or over mirrors and glass alone. The throughput is that at its last vertex.
+/// camera, or over mirrors and glass alone; `throughput` is that at its last vertex.
 struct MergeSegment : Segment {
   Rgb passed{1.0f};       // the transmittance from that vertex to the ray's origin
   float before = 0.0f;    // from the vertex to there, m

@@ -47,7 +47,7 @@ WholePath random_path(Rng& rng, int events) {
     path.light = DiscLight{path.points[0], normal, radius, Rgb(1.0f)};
     path.vertices[0].set_junction({Junction::Kind::surface, normal});
   }
-  path.vertices[0].light = true;
+  path.vertices[0].starts = true;
   for (size_t i = 1; i + 1 < n; ++i) {
     PathVertex& vertex = path.vertices[i];
     const Vec3 in = path.direction(i - 1), on = path.direction(i);
