@@ -117,8 +117,7 @@ double further_behind(const TechniqueCounts& counts, const Departure& departure,
 
 Behind techniques_behind(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,
                          const Vec3& point) {
-  return {counts.weigh(connections_over(departure, leg, at, point)),
-          further_behind(counts, departure, leg, at.starts)};
+  return {counts.weigh(connections_over(departure, leg, at, point)), further_behind(counts, departure, leg, at.starts)};
 }
 
 Behind arrive(const TechniqueCounts& counts, const Departure& departure, const Leg& leg, const Junction& at,

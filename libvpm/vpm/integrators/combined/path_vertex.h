@@ -23,10 +23,10 @@ struct Leg {
 struct Junction {
   enum class Kind { surface, medium, free };  // free: a specular vertex, a point, or infinity
   Kind kind = Kind::free;
-  Vec3 normal{0.0f};   // of a surface, unit
-  Rgb sigma_t{0.0f};   // in a medium, at the place, 1/m
+  Vec3 normal{0.0f};    // of a surface, unit
+  Rgb sigma_t{0.0f};    // in a medium, at the place, 1/m
   bool starts = false;  // is the light there that a path begins at?
-  double kept = 1.0;   // in a medium: how many photons are stored there for merges, for each that collides
+  double kept = 1.0;    // in a medium: how many photons are stored there for merges, for each that collides
 };
 
 /// All techniques that find a path behind a vertex, towards where its sub-path began: the sum of their densities, as

@@ -78,7 +78,7 @@ void describe_single_scattering(SingleScatteringSettings& s, Description& d) {
   const Members<SingleScatteringSettings> of(s, d);
   of.add("type", &SingleScatteringSettings::type,
          "light that media scatter once: from `\"photons\"`, by `\"shadow-rays\"` from every step of the march, or "
-         "`\"equiangular\"`, by shadow rays from a few distances of each stretch of an eye ray, drawn both towards the "
+         "`\"equiangular\"`, by shadow rays from a few distances of each segment of an eye ray, drawn both towards the "
          "light and by what reaches the eye. Light that scatters more than once always comes from the photon map");
   if (s.type == DirectLight::equiangular)
     of.add("samples", &SingleScatteringSettings::samples, Integers{1, kMostRays}, "how many pairs of such distances");

@@ -135,7 +135,7 @@ void check_own_radii(const RenderSettings& s, const SceneFacts&) {
 
 extern const VolumeEstimatorInfo kBeamRadiance{
     .name = "beam",
-    .summary = "those within the radius of a whole stretch of the eye's ray, in one query",
+    .summary = "those within the radius of a whole segment of the eye's ray, in one query",
     .along_rays = true,
     .describe = describe_own_radii,
     .check = check_own_radii,

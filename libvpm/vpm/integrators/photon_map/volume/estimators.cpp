@@ -104,7 +104,7 @@ void describe(VolumeSettings& settings, bool photons_weigh, Description& descrip
            "weights, see below");
   Members<AskedGather>(settings, description, VolumeSettings())
       .add("boundary", &AskedGather::boundary,
-           "against dark rims at the borders of media: `\"ends\"` lets photons past the ends of a stretch of the eye's "
+           "against dark rims at the borders of media: `\"ends\"` lets photons past the ends of a segment of the eye's "
            "ray make up for those missing before them; `\"corrected\"` corrects ball by ball, and lets no light "
            "through thin walls, but is the same as `\"ends\"` for gathers along rays and of flights, see below");
   if (photons_weigh && settings.info().collisions) describe_density_floor(settings, description);
