@@ -1,6 +1,7 @@
 // Scenes of a few triangles, all of which are looked at for each ray: quicker than a tree of them.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -28,6 +29,7 @@ class FewTriangles {
 
  private:
   static constexpr int kLanes = 8;
+  static constexpr uint64_t kBits[kLanes] = {1, 2, 4, 8, 16, 32, 64, 128};
   using Row = double[kLanes];
   struct Edge {
     Row along[3];   // m: from one end to the other
@@ -39,14 +41,15 @@ class FewTriangles {
     uint32_t shape[kLanes], triangle[kLanes];
     uint32_t layer[kLanes];  // 0: there is no triangle
   };
-  using Met = int64_t[kLanes];  // 0 or not; as wide as what is compared
-  static void find(const Block& block, const Vec3d& direction, const Vec3d& moment, Met& met);
+  /// The triangles of a block that a line goes through, as bits.
+  static uint64_t find(const Block& block, const Vec3d& direction, const Vec3d& moment);
 
   std::vector<Block> blocks_;
   size_t count_ = 0;
 };
 
-inline void FewTriangles::find(const Block& block, const Vec3d& direction, const Vec3d& moment, Met& met) {
+inline uint64_t FewTriangles::find(const Block& block, const Vec3d& direction, const Vec3d& moment) {
+  uint64_t met[kLanes];  // as wide as what is compared
   for (int lane = 0; lane < kLanes; ++lane) {
     double side[3];
     for (int i = 0; i < 3; ++i) {
@@ -58,19 +61,21 @@ inline void FewTriangles::find(const Block& block, const Vec3d& direction, const
     const double rounding = 0x1p-23 * std::abs(side[0] + side[1] + side[2]);
     const bool left = (side[0] >= -rounding) & (side[1] >= -rounding) & (side[2] >= -rounding);
     const bool right = (side[0] <= rounding) & (side[1] <= rounding) & (side[2] <= rounding);
-    met[lane] = left | right;
+    met[lane] = left | right ? kBits[lane] : 0;
   }
+  uint64_t bits = 0;
+  for (int lane = 0; lane < kLanes; ++lane) bits |= met[lane];
+  return bits;
 }
 
 template <class Use>
 void FewTriangles::visit(const Ray& ray, uint32_t layers, Use&& met) const {
   const Vec3d direction(ray.direction), moment = glm::cross(Vec3d(ray.origin), direction);
   for (const Block& block : blocks_) {
-    Met found;
-    find(block, direction, moment, found);
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (found[lane] != 0 && (block.layer[lane] & layers) != 0)
-        met(*block.mesh[lane], block.shape[lane], block.triangle[lane]);
+    for (uint64_t left = find(block, direction, moment); left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      if ((block.layer[lane] & layers) != 0) met(*block.mesh[lane], block.shape[lane], block.triangle[lane]);
+    }
   }
 }
 
