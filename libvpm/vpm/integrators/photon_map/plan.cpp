@@ -30,9 +30,9 @@ std::vector<float> radii_of_pixels(const Scene& scene, const RenderSettings& set
   return radii;
 }
 
-std::vector<std::unique_ptr<VolumeEstimator>> volume_estimators(const Scene& scene, const RenderSettings& settings,
-                                                                const PassOfMaps& pass,
-                                                                const SharedTransmittance& transmittance) {
+std::vector<std::unique_ptr<VolumeEstimator>> estimators_of_media(const Scene& scene, const RenderSettings& settings,
+                                                                  const PassOfMaps& pass,
+                                                                  const SharedTransmittance& transmittance) {
   const DirectLight once = settings.single_scattering.type;
   VolumePlan plan{scene,
                   settings.volume,
@@ -104,7 +104,7 @@ Estimators plan_estimators(const Scene& scene, const RenderSettings& settings, i
   PassOfMaps maps = pass_of_maps(settings, pass);
   maps.around = around;
   Estimators estimators;
-  if (facts.scattering_media) estimators.volume = volume_estimators(scene, settings, maps, transmittance);
+  if (facts.scattering_media) estimators.volume = estimators_of_media(scene, settings, maps, transmittance);
   if (facts.rough_surfaces) estimators.surface = surface_estimator(scene, settings, maps, discs, transmittance);
   return estimators;
 }
