@@ -43,14 +43,14 @@ RenderJob load_text(const std::string& text, const GivenParts& given) {
 }
 
 std::string message_of_grid(const GridValues& grid, const std::string& keys = "") {
-  return message_of([&] { load_text(kSmoke + keys + "grid = \"an array\"\n", {{{"smoke", grid}}, {}}); });
+  return message_of([&] { load_text(kSmoke + keys + "grid = \"an array\"\n", {{{{"smoke", "density"}, grid}}, {}}); });
 }
 
 TEST(GivenParts, AnArrayIsTheGridThatItsFileIs) {
   Array array;
   const std::string path = test_file("array.vdb");
   write_grid(array.given(), path);
-  const Scene scene = load_text(kSmoke + "grid = \"an array\"\n", {{{"smoke", array.given()}}, {}}).scene;
+  const Scene scene = load_text(kSmoke + "grid = \"an array\"\n", {{{{"smoke", "density"}, array.given()}}, {}}).scene;
   const Scene of_file = load_with(kSmoke + "path = \"" + path + "\"\n").scene;
   const DensityGrid &grid = *scene.media[0].grid, &other = *of_file.media[0].grid;
   EXPECT_EQ(grid.frame().lo, Vec3i(1, 0, 2));
@@ -109,7 +109,9 @@ TEST(GivenParts, ArraysThatAreNoDensityAreRefusedAtTheirLine) {
 
 TEST(GivenParts, TheirValuesTellScenesApart) {
   Array array;
-  const auto hash = [&] { return load_text(kSmoke + "grid = \"an array\"\n", {{{"smoke", array.given()}}, {}}).hash; };
+  const auto hash = [&] {
+    return load_text(kSmoke + "grid = \"an array\"\n", {{{{"smoke", "density"}, array.given()}}, {}}).hash;
+  };
   const std::string before = hash();
   EXPECT_EQ(hash(), before);
   array.at({3, 2, 4}) += 1.0f;

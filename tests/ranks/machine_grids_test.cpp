@@ -58,14 +58,14 @@ TEST(MachineGrids, AreThoseOfTheFirstRank) {
   EXPECT_FALSE(share_grids(first, scene));  // no error
   EXPECT_FALSE(scene.media[1].grid);
   for (RankInMemory* other : {&second, &third}) {
-    const std::optional<GridsOfMedia> grids = shared_grids(*other);
+    const std::optional<GridsOfScene> grids = shared_grids(*other);
     ASSERT_TRUE(grids);
     ASSERT_EQ(grids->size(), 2u);
     for (const int medium : {0, 2}) {
       const float density = own.media[medium].grid->density(kPlace);
       EXPECT_GT(density, 0.0f);
       EXPECT_EQ(scene.media[medium].grid->density(kPlace), density);
-      EXPECT_EQ(grids->at(own.media[medium].name)->density(kPlace), density);
+      EXPECT_EQ(grids->at({own.media[medium].name, "density"})->density(kPlace), density);
     }
   }
 }
@@ -79,12 +79,12 @@ TEST(MachineGrids, AreNowhereElseAndStayAsLongAsOneIsLeft) {
   EXPECT_TRUE(own.expired());
   const uint64_t once = mapped();
   EXPECT_GE(once, scene.media[0].grid->memory_bytes() - sizeof(DensityGrid));
-  std::optional<GridsOfMedia> grids = shared_grids(second);
+  std::optional<GridsOfScene> grids = shared_grids(second);
   EXPECT_EQ(mapped(), 2 * once);
   const float density = scene.media[2].density(kPlace);
   scene = {};
   EXPECT_EQ(mapped(), once);
-  const std::shared_ptr<const DensityGrid> last = grids->at("");
+  const std::shared_ptr<const DensityGrid> last = grids->at({"", "density"});
   grids.reset();
   EXPECT_EQ(last->density(kPlace), density);
   EXPECT_EQ(mapped(), once);
@@ -97,7 +97,7 @@ TEST(MachineGrids, OthersWaitForThem) {
   EXPECT_EQ(waiting.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
   Scene scene = scene_of_two_clouds();
   share_grids(first, scene);
-  EXPECT_EQ(waiting.get()->at("")->density(kPlace), scene.media[2].density(kPlace));
+  EXPECT_EQ(waiting.get()->at({"", "density"})->density(kPlace), scene.media[2].density(kPlace));
 }
 
 TEST(MachineGrids, OfAnotherProgramAreRefused) {
@@ -142,7 +142,7 @@ TEST(MachineGrids, MayBeOfASceneWithoutAny) {
   Scene scene;
   scene.media = {make_medium(nullptr, Rgb(2.0f))};
   share_grids(first, scene);
-  const std::optional<GridsOfMedia> grids = shared_grids(second);
+  const std::optional<GridsOfScene> grids = shared_grids(second);
   ASSERT_TRUE(grids);
   EXPECT_TRUE(grids->empty());
 }

@@ -39,13 +39,13 @@ class GridsOfFirst {
   explicit GridsOfFirst(Ranks& machine) : machine_(machine) {}
 
   /// As GridLoader does. How many values were clamped is not known here: the first rank reports it.
-  LoadedGrid load(const std::string& medium, const GridRequest& request) {
+  LoadedGrid load(const GridName& name, const GridRequest& request) {
     wait();
     if (!grids_) return load_grid(request);
-    const auto found = grids_->find(medium);
+    const auto found = grids_->find(name);
     if (found == grids_->end())
-      throw InputError(
-          fmt::format("the first rank of this machine reads another scene: without a grid of '{}'", medium));
+      throw InputError(fmt::format("the first rank of this machine reads another scene: without a {} of '{}'",
+                                   name.role, name.medium));
     return LoadedGrid{found->second};
   }
   /// Takes what the first sends, also where nothing was loaded.
@@ -64,7 +64,7 @@ class GridsOfFirst {
  private:
   Ranks& machine_;
   bool heard_ = false;
-  std::optional<GridsOfMedia> grids_;
+  std::optional<GridsOfScene> grids_;
   std::string not_there_;
 };
 
@@ -85,7 +85,7 @@ JobOfRank load_as_rank(Ranks& ranks, const RenderOptions& options) {
   }
   GridsOfFirst grids(*machine);
   RenderJob job = load_for_render(
-      options, [&](const std::string& medium, const GridRequest& request) { return grids.load(medium, request); });
+      options, [&](const GridName& name, const GridRequest& request) { return grids.load(name, request); });
   grids.wait();
   return {std::move(job), grids.not_there()};
 }

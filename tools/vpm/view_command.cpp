@@ -51,7 +51,7 @@ ViewScene make_scene(const ViewOptions& options) {
 
 /// The grid is loaded already, unless options ask for another, or for it in another way.
 GridLoader loader_of(const ViewScene& made) {
-  return [&made](const std::string&, const GridRequest& request) {
+  return [&made](const GridName&, const GridRequest& request) {
     GridRequest same = request;
     if (std::error_code none; fs::equivalent(request.path, made.request.path, none)) same.path = made.request.path;
     return same == made.request ? made.grid : load_grid(request);

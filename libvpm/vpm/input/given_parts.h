@@ -6,16 +6,17 @@
 #include <string>
 
 #include "vpm/input/grid/grid_values.h"
+#include "vpm/medium/medium.h"
 #include "vpm/surface/geometry.h"
 
 namespace vpm {
 
 struct GivenParts {
-  std::map<std::string, GridValues> grids;  // of media, by their names
-  std::map<size_t, TriangleMesh> meshes;    // of shapes, by their numbers in [[shapes]]
+  std::map<GridName, GridValues> grids;
+  std::map<size_t, TriangleMesh> meshes;  // of shapes, by their numbers in [[shapes]]
 
-  const GridValues* grid(const std::string& medium) const {
-    const auto found = grids.find(medium);
+  const GridValues* grid(const GridName& name) const {
+    const auto found = grids.find(name);
     return found == grids.end() ? nullptr : &found->second;
   }
   const TriangleMesh* mesh(size_t shape) const {

@@ -58,10 +58,9 @@ void read_coefficients(TableReader& table, bool grid, Medium& medium) {
   }
 }
 
-/// `given`: the grid is in memory, and the key `grid` describes it.
-GridRequest read_grid(TableReader& table, bool given) {
+GridPlan read_grid(TableReader& table, const GridRole& role, const GridValues* given) {
   GridRequest request;
-  if (!given) {
+  if (!given) {  // else the key `grid` describes it
     request.path = table.path("path");
     request.from_level_set = table.flag("from_level_set", false);
   }
@@ -71,11 +70,11 @@ GridRequest read_grid(TableReader& table, bool given) {
       Interpolation::trilinear);
   request.clamp_negative = table.flag("clamp_negative", false);
   request.object_to_world = read_transform(table, "transform");
-  return request;
+  return {role, std::move(request), given};
 }
 
-MediumPlan read_medium(TableReader table, const std::string& name, const Names& names, const GridValues* given) {
-  std::optional<GridRequest> request;
+MediumPlan read_medium(TableReader table, const std::string& name, const Names& names, const GivenParts& given) {
+  std::vector<GridPlan> grids;
   MediumPart part;
   Medium& medium = part.medium;
   medium.name = name;
@@ -83,7 +82,8 @@ MediumPlan read_medium(TableReader table, const std::string& name, const Names& 
   medium.phase = read_phase(table);
   read_coefficients(table, grid, medium);
   if (grid) {
-    request = read_grid(table, given != nullptr);
+    const GridRole& density = kGridRoles[0];
+    grids.push_back(read_grid(table, density, given.grid({name, std::string(density.name)})));
     part.boundary = table.choice<GridBoundary>(
         "boundary", {{"box", GridBoundary::box}, {"shapes", GridBoundary::shapes}}, GridBoundary::automatic);
     if (table.has("outside")) part.outside = read_medium_name(table, "outside", names, kVacuum);
@@ -94,7 +94,7 @@ MediumPlan read_medium(TableReader table, const std::string& name, const Names& 
   if (!is_finite(medium.sigma_t))
     table.fail_here("the extinction of " + table.title() + " is too large for single precision");
   table.finish();
-  return {std::move(part), std::move(table), std::move(request), given};
+  return {std::move(part), std::move(table), std::move(grids)};
 }
 
 }  // namespace
@@ -112,8 +112,7 @@ MediumId read_medium_name(TableReader& table, const std::string& key, const Name
 
 std::vector<MediumPlan> read_media(TableReader& section, const Names& names, const GivenParts& given) {
   std::vector<MediumPlan> plans;
-  for (auto& [name, table] : section.named_tables("media"))
-    plans.push_back(read_medium(table, name, names, given.grid(name)));
+  for (auto& [name, table] : section.named_tables("media")) plans.push_back(read_medium(table, name, names, given));
   return plans;
 }
 

@@ -56,7 +56,7 @@ void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan)
 SceneFacts facts_of(const ScenePlan& plan) {
   SceneFacts facts;
   for (const MediumPlan& medium : plan.media) {
-    facts.grids |= medium.grid.has_value();  // not read yet
+    facts.grids |= !medium.grids.empty();  // not read yet
     facts.scattering_media |= medium.part.medium.scatters();
   }
   if (plan.world_medium != kVacuum) facts.add_world(plan.media[plan.world_medium].part.medium);
@@ -139,28 +139,31 @@ SceneParts parts_of(ScenePlan& plan) {
   root.fail_here(error.wrong(), error.right());
 }
 
-void load_medium_grid(const MediumPlan& plan, const GridRequest& request, const GridLoader& load, Medium& medium,
-                      RenderJob& job) {
+void load_grid_of(Medium& medium, const GridPlan& plan, const TableReader& table, const GridRequest& request,
+                  const GridLoader& load, RenderJob& job) {
   try {
-    LoadedGrid grid = plan.given ? density_of(*plan.given, request) : load(medium.name, request);
-    medium.grid = std::move(grid.grid);
+    LoadedGrid grid =
+        plan.given ? density_of(*plan.given, request) : load({medium.name, std::string(plan.role.name)}, request);
+    medium.*plan.role.grid = std::move(grid.grid);
     job.clamped_density_values += grid.clamped_values;
     for (const std::string& note : grid.notes) job.notes.push_back("medium '" + medium.name + "': " + note);
     if (grid.clamped_values > 0)
       job.notes.push_back("medium '" + medium.name + "': " + std::to_string(grid.clamped_values) +
                           " negative densities set to 0, as clamp_negative asks");
   } catch (const InputError& error) {
-    plan.table.fail(plan.given ? "grid" : "path", error.what());
+    table.fail(plan.given ? "grid" : "path", error.what());
   }
 }
 
 /// Reads the grids of media into their parts.
 void load_grids(const ScenePlan& plan, const GridLoader& load, SceneParts& parts, RenderJob& job) {
   for (size_t i = 0; i < plan.media.size(); ++i) {
-    if (!plan.media[i].grid) continue;
-    GridRequest request = *plan.media[i].grid;
-    request.has_bounding_shape = !is_boxed(parts, static_cast<MediumId>(i));
-    load_medium_grid(plan.media[i], request, load, parts.media[i].medium, job);
+    const MediumPlan& medium = plan.media[i];
+    for (const GridPlan& grid : medium.grids) {
+      GridRequest request = grid.request;
+      request.has_bounding_shape = !is_boxed(parts, static_cast<MediumId>(i));
+      load_grid_of(parts.media[i].medium, grid, medium.table, request, load, job);
+    }
   }
 }
 
@@ -191,7 +194,8 @@ std::string hash_of(const TriangleMesh& mesh) {
 /// Names and hashes of parts that are in memory.
 std::vector<std::pair<std::string, std::string>> hashes_of(const GivenParts& given) {
   std::vector<std::pair<std::string, std::string>> hashes;
-  for (const auto& [medium, grid] : given.grids) hashes.emplace_back("grid of " + medium, hash_of(grid));
+  for (const auto& [name, grid] : given.grids)
+    hashes.emplace_back(fmt::format("{} of {}", name.role, name.medium), hash_of(grid));
   for (const auto& [shape, mesh] : given.meshes)
     hashes.emplace_back("mesh of shape " + std::to_string(shape), hash_of(mesh));
   return hashes;
@@ -226,7 +230,7 @@ RenderJob job_with(Document document, const std::vector<std::string>& options, L
   return job;
 }
 
-LoadedGrid load_from_file(const std::string&, const GridRequest& request) { return load_grid(request); }
+LoadedGrid load_from_file(const GridName&, const GridRequest& request) { return load_grid(request); }
 
 }  // namespace
 

@@ -23,12 +23,17 @@ MediumId read_medium_name(TableReader& table, const std::string& key, const Name
 
 // Each plan is a part of the scene and the table that it was read from, for errors.
 
-/// A medium, its grid not read yet.
+/// A grid that is not read yet.
+struct GridPlan {
+  const GridRole& role;  // of kGridRoles
+  GridRequest request;
+  const GridValues* given;  // in the place of its file; null: the file is to be read
+};
+/// A medium without its grids.
 struct MediumPlan {
   MediumPart part;
   TableReader table;
-  std::optional<GridRequest> grid;
-  const GridValues* given = nullptr;  // in the place of that grid's file
+  std::vector<GridPlan> grids;
 };
 /// Reads [media.*].
 std::vector<MediumPlan> read_media(TableReader& section, const Names& names, const GivenParts& given);

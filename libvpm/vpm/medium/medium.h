@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "vpm/base/vec.h"
 #include "vpm/medium/grid/density_grid.h"
@@ -101,6 +103,21 @@ struct Medium {
     if (!passes(double{interval.t1} - interval.t0, 1.0f)) visit(DensityStretch{interval.t0, interval.t1, 1.0f, 1.0f});
     return 0;
   }
+};
+
+/// What the values of a grid are to its medium, and the member that holds it.
+struct GridRole {
+  std::string_view name;
+  std::shared_ptr<const DensityGrid> Medium::*grid;
+};
+inline constexpr std::array kGridRoles{GridRole{"density", &Medium::grid}};
+
+/// Names a grid of a scene: a medium has at most one of each role.
+struct GridName {
+  std::string medium;
+  std::string role;  // of kGridRoles
+
+  auto operator<=>(const GridName&) const = default;
 };
 
 /// The density integral along a segment of a ray, m, and the number of look-ups. Times sigma_t it is the optical depth.

@@ -1,4 +1,4 @@
-// The shared memory holds the number of media that have a grid, and of each its name and its grid. The message holds
+// The shared memory holds the number of grids, and of each its medium's name, its role and itself. The message holds
 // the version of vpm, since another one could not read that; a line feed; and the address of the memory. There is no
 // address where the scene has no grids, and the message is empty where memory was refused.
 #include "vpm/ranks/machine_grids.h"
@@ -16,40 +16,50 @@
 namespace vpm {
 namespace {
 
-std::vector<Medium*> media_with_grids(Scene& scene) {
-  std::vector<Medium*> media;
+struct PlacedGrid {
+  const Medium* medium;
+  const GridRole* role;
+  std::shared_ptr<const DensityGrid>* grid;  // the medium's
+};
+
+std::vector<PlacedGrid> grids_of(Scene& scene) {
+  std::vector<PlacedGrid> grids;
   for (Medium& medium : scene.media)
-    if (medium.grid) media.push_back(&medium);
-  return media;
+    for (const GridRole& role : kGridRoles)
+      if (medium.*role.grid) grids.push_back({&medium, &role, &(medium.*role.grid)});
+  return grids;
 }
 
 void send_to_all(Ranks& machine, const std::string& bytes) {
   for (int rank = 1; rank < machine.size(); ++rank) machine.send(rank, bytes);
 }
 
-/// packed(Medium&) is called for each medium once it is packed.
+/// packed(const PlacedGrid&) is called for each grid once it is packed.
 template <class IsPacked>
-void pack(const std::vector<Medium*>& media, TablePacker& packer, IsPacked&& packed) {
-  packer.add_one(uint64_t{media.size()});
-  for (Medium* medium : media) {
-    packer.add(std::span<const char>(medium->name));
-    medium->grid->pack(packer);
-    packed(*medium);
+void pack(const std::vector<PlacedGrid>& grids, TablePacker& packer, IsPacked&& packed) {
+  packer.add_one(uint64_t{grids.size()});
+  for (const PlacedGrid& placed : grids) {
+    packer.add(std::span<const char>(placed.medium->name));
+    packer.add_one(static_cast<uint64_t>(placed.role - kGridRoles.data()));
+    (*placed.grid)->pack(packer);
+    packed(placed);
   }
 }
 
-size_t packed_bytes(const std::vector<Medium*>& media) {
+size_t packed_bytes(const std::vector<PlacedGrid>& grids) {
   TablePacker counter(nullptr);
-  pack(media, counter, [](const Medium&) {});
+  pack(grids, counter, [](const PlacedGrid&) {});
   return counter.bytes();
 }
 
-GridsOfMedia grids_in(const std::shared_ptr<const SharedMemory>& memory) {
+GridsOfScene grids_in(const std::shared_ptr<const SharedMemory>& memory) {
   TableUnpacker packed(memory->bytes());
-  GridsOfMedia grids;
+  GridsOfScene grids;
   for (auto left = packed.take_one<uint64_t>(); left > 0; --left) {
-    const std::span<const char> name = packed.take<char>();
-    grids.emplace(std::string(name.begin(), name.end()), std::make_shared<const DensityGrid>(packed, memory));
+    const std::span<const char> medium = packed.take<char>();
+    const GridRole& role = kGridRoles.at(packed.take_one<uint64_t>());
+    grids.emplace(GridName{{medium.begin(), medium.end()}, std::string(role.name)},
+                  std::make_shared<const DensityGrid>(packed, memory));
   }
   return grids;
 }
@@ -59,33 +69,34 @@ std::string program() { return std::string(version()) + "\n"; }
 }  // namespace
 
 std::error_code share_grids(Ranks& machine, Scene& scene) {
-  const std::vector<Medium*> media = media_with_grids(scene);
-  if (media.empty()) {
+  const std::vector<PlacedGrid> placed = grids_of(scene);
+  if (placed.empty()) {
     send_to_all(machine, program());
     return {};
   }
   std::shared_ptr<SharedMemory> memory;
   try {
-    memory = std::make_shared<SharedMemory>(packed_bytes(media));
+    memory = std::make_shared<SharedMemory>(packed_bytes(placed));
   } catch (const std::system_error& refused) {
     send_to_all(machine, {});
     return refused.code();
   }
   TablePacker packer(memory->data());
-  pack(media, packer, [](Medium& medium) { medium.grid = nullptr; });  // so that only one at a time is there twice
+  pack(placed, packer,
+       [](const PlacedGrid& done) { *done.grid = nullptr; });  // so that only one at a time is there twice
   memory->finish();
-  const GridsOfMedia grids = grids_in(memory);
-  for (Medium* medium : media) medium->grid = grids.at(medium->name);
+  const GridsOfScene grids = grids_in(memory);
+  for (const PlacedGrid& own : placed) *own.grid = grids.at({own.medium->name, std::string(own.role->name)});
   send_to_all(machine, program() + memory->address());
   return {};
 }
 
-std::optional<GridsOfMedia> shared_grids(Ranks& machine) {
+std::optional<GridsOfScene> shared_grids(Ranks& machine) {
   const std::string received = wait_for_message(machine).bytes;
   if (received.empty()) return std::nullopt;
   if (!received.starts_with(program())) throw InputError("the first rank of this machine is another vpm");
   const std::string address = received.substr(program().size());
-  if (address.empty()) return GridsOfMedia{};
+  if (address.empty()) return GridsOfScene{};
   return grids_in(std::make_shared<const SharedMemory>(address));
 }
 

@@ -44,7 +44,7 @@ TriangleMesh triangle_mesh(const Floats& vertices, const Indices& faces, const s
   return mesh;
 }
 
-using GivenGrid = std::tuple<std::string, py::array_t<float>, Doubles>;
+using GivenGrid = std::tuple<std::string, std::string, py::array_t<float>, Doubles>;  // of a medium, in a role
 using GivenMesh = std::tuple<size_t, Floats, Indices, std::optional<Floats>, std::optional<Floats>>;
 
 LeftOut left_out(bool automatic) { return automatic ? LeftOut::automatic : LeftOut::defaults; }
@@ -66,8 +66,8 @@ std::shared_ptr<SceneJob> load_text(const std::string& name, const std::string& 
                                     const std::vector<GivenGrid>& grids, const std::vector<GivenMesh>& meshes,
                                     const std::vector<std::string>& overrides, bool automatic) {
   SceneText scene{name, text};
-  for (const auto& [medium, array, index_to_world] : grids)
-    scene.given.grids.emplace(medium, grid_values(array, index_to_world));
+  for (const auto& [medium, role, array, index_to_world] : grids)
+    scene.given.grids.emplace(GridName{medium, role}, grid_values(array, index_to_world));
   for (const auto& [shape, vertices, faces, normals, uvs] : meshes)
     scene.given.meshes.emplace(shape, triangle_mesh(vertices, faces, normals, uvs));
   return load([&] { return load_scene(scene, components_first(overrides), left_out(automatic)); });

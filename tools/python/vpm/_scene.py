@@ -147,7 +147,7 @@ class Scene:
 class _Parts:
     """A scene's text, and the arrays that it leaves out."""
     text: str
-    grids: list[tuple[str, NDArray[np.float32], NDArray[np.float64]]]  # of media
+    grids: list[tuple[str, str, NDArray[np.float32], NDArray[np.float64]]]  # of media, in a role
     meshes: list[tuple[int, Any, Any, Any, Any]]  # of shapes, by number
 
 
@@ -170,7 +170,7 @@ def _medium(name: str, table: Any, parts: _Parts) -> Any:
         grid = grid if isinstance(grid, Grid) else Grid(grid)
     except InputError as error:
         raise InputError(f"media.{name}.grid: {error}") from None
-    parts.grids.append((name, grid.values, grid.transform))
+    parts.grids.append((name, "density", grid.values, grid.transform))
     return {**table, "grid": repr(grid)}
 
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "vpm/base/vec.h"
-#include "vpm/medium/grid/density_grid.h"
+#include "vpm/medium/medium.h"
 
 namespace vpm {
 
@@ -74,7 +74,7 @@ struct LoadedGrid {
 /// so many occupied bricks that their table would take over 256 MiB, or 2^31 voxels from one to another.
 LoadedGrid load_grid(const GridRequest& request);
 
-/// What loads the grid of a medium, which has this name.
-using GridLoader = std::function<LoadedGrid(const std::string& medium, const GridRequest& request)>;
+/// What loads the grid of this name.
+using GridLoader = std::function<LoadedGrid(const GridName& name, const GridRequest& request)>;
 
 }  // namespace vpm
