@@ -49,7 +49,7 @@ class FewTriangles {
 };
 
 inline uint64_t FewTriangles::find(const Block& block, const Vec3d& direction, const Vec3d& moment) {
-  uint64_t met[kLanes];  // as wide as what is compared
+  uint64_t met = 0;
   for (int lane = 0; lane < kLanes; ++lane) {
     double side[3];
     for (int i = 0; i < 3; ++i) {
@@ -61,11 +61,9 @@ inline uint64_t FewTriangles::find(const Block& block, const Vec3d& direction, c
     const double rounding = 0x1p-23 * std::abs(side[0] + side[1] + side[2]);
     const bool left = (side[0] >= -rounding) & (side[1] >= -rounding) & (side[2] >= -rounding);
     const bool right = (side[0] <= rounding) & (side[1] <= rounding) & (side[2] <= rounding);
-    met[lane] = left | right ? kBits[lane] : 0;
+    met |= left | right ? kBits[lane] : 0;
   }
-  uint64_t bits = 0;
-  for (int lane = 0; lane < kLanes; ++lane) bits |= met[lane];
-  return bits;
+  return met;
 }
 
 template <class Use>

@@ -73,7 +73,7 @@ void Geometry::Impl::lay_out() {
     if (const auto* mesh = std::get_if<MeshShape>(&shapes[shape]))
       few.add(*mesh, shape, bit(layers[shape]));
     else
-      spheres_and_discs.push_back(shape);
+      spheres_and_discs.push_back({&shapes[shape], shape, bit(layers[shape])});
   }
   bytes += few.memory_bytes();
 }
@@ -82,11 +82,10 @@ void Geometry::Impl::look_at_all(Query& query, uint32_t layers_seen) const {
   few.visit(query.ray, layers_seen, [&](const MeshShape& mesh, uint32_t shape, uint32_t triangle) {
     if (!query.leaves_out(shape)) query.take(crossing(mesh, triangle, query.ray), shape, triangle);
   });
-  for (const uint32_t shape : spheres_and_discs) {
-    if ((bit(layers[shape]) & layers_seen) == 0 || query.leaves_out(shape)) continue;
-    if (const auto* sphere = std::get_if<SphereShape>(&shapes[shape]))
-      query.take(crossing(*sphere, query.ray), shape, 0);
-    if (const auto* disc = std::get_if<DiscShape>(&shapes[shape])) query.take(crossing(*disc, query.ray), shape, 0);
+  for (const auto& [data, shape, layer] : spheres_and_discs) {
+    if ((layer & layers_seen) == 0 || query.leaves_out(shape)) continue;
+    if (const auto* sphere = std::get_if<SphereShape>(data)) query.take(crossing(*sphere, query.ray), shape, 0);
+    if (const auto* disc = std::get_if<DiscShape>(data)) query.take(crossing(*disc, query.ray), shape, 0);
   }
 }
 

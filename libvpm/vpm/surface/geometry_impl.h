@@ -15,16 +15,22 @@ namespace vpm {
 constexpr uint32_t bit(Layer layer) { return static_cast<uint32_t>(layer); }
 inline constexpr uint32_t kAllLayers = ~0u;
 
+/// A sphere or a disc.
+struct RoundShape {
+  const ShapeData* data;  // of Geometry::Impl::shapes
+  uint32_t shape, layer;
+};
+
 struct Geometry::Impl {
   std::deque<ShapeData> shapes;
   std::vector<double> areas;  // m^2
   std::vector<Box> bounds;
   std::vector<Layer> layers;
   EmbreeTree tree{shapes};
-  float size = 0.0f;                        // m: of the box around all shapes, and its distance from the origin
-  FewTriangles few;                         // all, if the scene is small
-  std::vector<uint32_t> spheres_and_discs;  // likewise
-  bool is_small = false;                    // all shapes are looked at for each ray
+  float size = 0.0f;                          // m: of the box around all shapes, and its distance from the origin
+  FewTriangles few;                           // all, if the scene is small
+  std::vector<RoundShape> spheres_and_discs;  // likewise
+  bool is_small = false;                      // all shapes are looked at for each ray
   bool committed = false;
   size_t bytes = 0;  // without the tree's
 
