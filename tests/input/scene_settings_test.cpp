@@ -159,15 +159,15 @@ TEST(SceneFile, AutoIsReadWhereItIsWritten) {
   EXPECT_EQ(loaded.automatic.keys, (Keys{"integrator.photons.emitted", "integrator.volume.radius"}));
   EXPECT_FALSE(loaded.settings.volume.radius.is_given());
   EXPECT_EQ(loaded.settings.photons.emitted, RenderSettings{}.photons.emitted);
-  EXPECT_EQ(load_with("", {"integrator.distance.type=auto", "integrator.indirect.type=final-gather",
-                           "integrator.caustics.radius=auto", "integrator.volume.type=auto"})
+  EXPECT_EQ(load_with("", {"integrator.indirect.type=final-gather", "integrator.caustics.radius=auto",
+                           "integrator.volume.type=auto"})
                 .automatic.keys,
-            (Keys{"integrator.caustics.radius", "integrator.distance.type", "integrator.volume.type"}));
+            (Keys{"integrator.caustics.radius", "integrator.volume.type"}));
   EXPECT_TRUE(load_with("").automatic.keys.empty());
 }
 
-const Keys kAll{"integrator.distance.type", "integrator.photons.emitted", "integrator.surface.radius",
-                "integrator.type", "integrator.volume.radius"};
+const Keys kAll{"integrator.photons.emitted", "integrator.surface.radius", "integrator.type",
+                "integrator.volume.radius"};
 
 TEST(SceneFile, AnAutomaticIntegratorIsChosenWithAllThatItHas) {
   const RenderJob loaded = load_with("[integrator]\ntype = 'auto'\n");
@@ -198,23 +198,24 @@ TEST(SceneFile, WhatIsLeftOutMayBeAutomatic) {
   EXPECT_EQ(loaded.settings.distance.strategy, "delta");
   EXPECT_TRUE(
       load_scene(path, {"integrator.volume.type=auto"}, LeftOut::automatic).automatic.has("integrator.volume.type"));
-  EXPECT_TRUE(
-      load_scene(path, {"integrator.photons.stored=9"}, LeftOut::automatic).automatic.has("integrator.distance.type"));
   EXPECT_NE(load_scene(path, {}, LeftOut::automatic).hash, load_scene(path).hash);
 }
 
 /// A file that says something of an integrator without naming it.
 TEST(SceneFile, WhereNothingNamesTheIntegratorAllMayBeAutomatic) {
   const std::string path = write_scene(kCamera + kLight + "[integrator.surface]\nradius = 2\n");
-  const RenderJob loaded = load_scene(path, {}, LeftOut::automatic);
+  EXPECT_EQ(load_scene(path, {"render.seconds=2"}, LeftOut::automatic).automatic.keys, kAll);
+  const RenderJob without_time = load_scene(path, {}, LeftOut::automatic);
+  EXPECT_EQ(without_time.automatic.keys, (Keys{"integrator.photons.emitted", "integrator.volume.radius"}));
+  EXPECT_EQ(without_time.settings.surface.radius.metres(), 2.0f);
+  const RenderJob loaded = load_scene(path, {}, LeftOut::all_automatic);
   EXPECT_EQ(loaded.automatic.keys, kAll);
   EXPECT_EQ(loaded.notes,
             std::vector<std::string>{"integrator.type is \"auto\" in place of \"photon-map\": left out are "
                                      "integrator.surface.radius"});
   EXPECT_FALSE(loaded.settings.surface.radius.is_given());
-  EXPECT_THROW(load_scene(path, {"integrator.surface.radius=3"}, LeftOut::automatic), InputError);
-  EXPECT_EQ(load_scene(path, {"integrator.type=path"}, LeftOut::automatic).automatic.keys,
-            Keys{"integrator.distance.type"});
+  EXPECT_THROW(load_scene(path, {"integrator.surface.radius=3"}, LeftOut::all_automatic), InputError);
+  EXPECT_TRUE(load_scene(path, {"integrator.type=path"}, LeftOut::all_automatic).automatic.keys.empty());
 }
 
 TEST(SceneFile, TechniquesThatAreLeftOutAreAutomaticWithTheirIntegrator) {

@@ -27,49 +27,34 @@ class VpmAutomatic : public VpmRender {
 };
 
 TEST_F(VpmAutomatic, WhatItTellsRendersTheSamePicture) {
-  const std::string chosen_notes =
-      vpm_succeeds({"render", "open.toml", "--auto", "--set", "integrator.volume.type=auto", "--set",
-                    "integrator.type=photon-map", "-o", "auto.exr"})
-          .err;
-  for (const char* key : {"integrator.distance.type", "integrator.volume.type", "integrator.photons.emitted",
-                          "integrator.volume.radius", "integrator.surface.radius"})
+  const std::string chosen_notes = vpm_succeeds({"render", "open.toml", "--auto", "-o", "auto.exr"}).err;
+  for (const char* key : {"integrator.photons.emitted", "integrator.volume.radius", "integrator.surface.radius"})
     EXPECT_NE(chosen_notes.find(std::string("note: chosen ") + key), std::string::npos) << chosen_notes;
   std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
   for (const std::string& word : told(chosen_notes)) again.push_back(word);
-  ASSERT_EQ(again.size(), 4u + 10u) << chosen_notes;
+  ASSERT_EQ(again.size(), 4u + 6u) << chosen_notes;
   vpm_succeeds(again);
   EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
   EXPECT_EQ(report("auto.json")["settings"], report("again.json")["settings"]);
-  EXPECT_EQ(report("auto.json")["notes"].size(), 7u);
+  EXPECT_EQ(report("auto.json")["notes"].size(), 5u);
   EXPECT_EQ(report("again.json")["notes"].size(), 0u);
   const std::string line = read_exr_channels(path("auto.exr")).metadata.at("vpm.settings");
   EXPECT_EQ(line, read_exr_channels(path("again.exr")).metadata.at("vpm.settings"));
   const nlohmann::json settings = report("auto.json")["settings"];
-  EXPECT_EQ(field_of(line, "integrator.distance.type"), settings["integrator.distance.type"].get<std::string>());
   EXPECT_EQ(field_of(line, "integrator.photons.emitted"), settings["integrator.photons.emitted"].dump());
 }
 
-/// Whichever is chosen renders what it renders where it is asked for.
-TEST_F(VpmAutomatic, TheIntegratorIsChosenWhereItIsLeftOut) {
-  const std::string errors = vpm_succeeds({"render", "open.toml", "--auto", "-o", "auto.exr"}).err;
-  expect_words(errors, {"chosen integrator.type = ", "least error in a pilot", "photon-map ", " combined ", " path "});
-  std::vector<std::string> again{"render", "open.toml", "-o", "again.exr"};
+/// With a time all is chosen that the scene leaves open; without one its integrator stays.
+TEST_F(VpmAutomatic, TheIntegratorIsChosenByTime) {
+  const std::string errors = vpm_succeeds({"render", "open.toml", "--auto", "--time", "1", "-o", "auto.exr"}).err;
+  expect_words(errors, {"chosen integrator.type = ", "photon-map", "combined", "path"});
+  EXPECT_NE(told(errors).at(1).find("integrator.type="), std::string::npos);
+  std::vector<std::string> again{"render", "open.toml", "-o", "again.exr", "--passes", "1"};
   for (const std::string& word : told(errors)) again.push_back(word);
   vpm_succeeds(again);
-  EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
-}
-
-/// Techniques, too, are told as --set takes them.
-TEST_F(VpmAutomatic, TechniquesAreToldAsOptionsTakeThem) {
-  const std::string combined = "integrator.type=combined";
-  const std::string errors =
-      vpm_succeeds({"render", "scene.toml", "--set", combined, "--set", "integrator.techniques=auto", "-o", "auto.exr"})
-          .err;
-  std::vector<std::string> again{"render", "scene.toml", "--set", combined, "-o", "again.exr"};
-  for (const std::string& word : told(errors)) again.push_back(word);
-  ASSERT_EQ(again.size(), 6u + 2u) << errors;
-  vpm_succeeds(again);
-  EXPECT_TRUE(read_exr(path("auto.exr")).pixels == read_exr(path("again.exr")).pixels);
+  EXPECT_EQ(report("auto.json")["settings"]["integrator.type"], report("again.json")["settings"]["integrator.type"]);
+  const std::string without = vpm_succeeds({"render", "scene.toml", "--auto", "-o", "given.exr"}).err;
+  EXPECT_EQ(without.find("chosen integrator.type"), std::string::npos) << without;
 }
 
 TEST_F(VpmAutomatic, WhatIsGivenIsRenderedAsEver) {
@@ -95,9 +80,9 @@ TEST_F(VpmAutomatic, TheGatherInMediaIsChosenWhereItIsAskedFor) {
     const size_t at = errors.find("chosen integrator.volume.type = ");
     return at == std::string::npos ? "" : errors.substr(at, errors.find('\n', at) - at);
   };
-  const std::string chosen =
-      line_of(vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--set", "integrator.volume.type=auto"}).err);
-  expect_words(chosen, {"least error in a pilot", " beam ", " photon-beams ", " s each)"});
+  const std::string chosen = line_of(
+      vpm_succeeds({"render", "scene.toml", "-o", "a.exr", "--time", "1", "--set", "integrator.volume.type=auto"}).err);
+  expect_words(chosen, {"by pilot passes", "photon-map by "});
   const std::string photons = "integrator.type=photon-map";
   EXPECT_EQ(line_of(vpm_succeeds({"render", "open.toml", "--auto", "--set", photons, "-o", "b.exr"}).err), "");
   EXPECT_EQ(report("b.json")["settings"]["integrator.volume.type"], "radius");
@@ -160,8 +145,7 @@ name = "given"
   vpm_succeeds({"compare", "chosen.toml", "-o", "out"});
   const nlohmann::json results = nlohmann::json::parse(read("out/results.json"));
   const nlohmann::json& methods = results.at("scenes").at(0).at("methods");
-  expect_words(methods.at(0).at("settings").get<std::string>(),
-               {"; chosen: integrator.type=", " integrator.distance.type="});
+  expect_words(methods.at(0).at("settings").get<std::string>(), {"; chosen: integrator.type="});
   EXPECT_EQ(methods.at(1).at("settings").get<std::string>().find("chosen"), std::string::npos);
 }
 

@@ -90,8 +90,8 @@ void add_render(CLI::App& app, RenderOptions& options) {
                       "EXR image of the truth: log error against time to a CSV file next to the image");
   command->add_flag(
       "--auto", options.automatic,
-      "Choose radii, photons and distance strategy where the scene leaves them out, and all of [integrator] where "
-      "neither the scene nor an option names its type; say why");
+      "Choose radii and photons where the scene leaves them out, and with a time all of [integrator] where neither the "
+      "scene nor an option names its type; say why");
   command
       ->add_option("--layers", options.layers,
                    "Write these layers, too, separated by commas: combined (what each technique finds), and of what a "

@@ -11,9 +11,9 @@
 #include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/integrators/photon_map/plan.h"
 #include "vpm/integrators/render_scene.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/lost_light.h"
 #include "vpm/render/render.h"
-#include "vpm/tune/forecast.h"
 
 namespace vpm::tools {
 namespace {

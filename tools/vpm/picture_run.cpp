@@ -143,8 +143,11 @@ void check_range(const RenderOptions& options) {
 
 RenderJob load_for_render(const RenderOptions& options, const GridLoader& load) {
   check_range(options);
-  RenderJob job = load_scene(options.scene, overrides_of(options),
-                             options.automatic ? LeftOut::automatic : LeftOut::defaults, load);
+  const bool by_time = options.seconds && options.pass_range.empty();
+  const LeftOut left_out = !options.automatic ? LeftOut::defaults
+                           : by_time          ? LeftOut::all_automatic
+                                              : LeftOut::automatic;
+  RenderJob job = load_scene(options.scene, overrides_of(options), left_out, load);
   apply_run_options(options, job);
   return job;
 }

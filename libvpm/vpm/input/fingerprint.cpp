@@ -87,7 +87,7 @@ Fingerprint fingerprint_of(const Document& document, const std::vector<std::stri
     values.emplace_back(fmt::format("file {}, {}", i + 1, std::filesystem::path(files[i]).filename().string()),
                         "bytes of hash " + hash_of_bytes(files[i]));
   for (const auto& [name, hash] : given) values.emplace_back(name, "values of hash " + hash);
-  if (left_out == LeftOut::automatic) values.emplace_back("what is left out", "is chosen");
+  if (left_out != LeftOut::defaults) values.emplace_back("what is left out", "is chosen");
   const std::set<std::string> of_passes = keys_of_passes();
   Fingerprint fingerprint;
   Fnv1a hash;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vpm/input/node.h"
-#include "vpm/tune/choice.h"
+#include "vpm/integrators/choice.h"
 
 namespace vpm {
 

@@ -47,7 +47,7 @@ Filter read_filter(TableReader& film) {
 /// What a render has that says nothing of a setting.
 void leave_out(const Setting& setting, LeftOut left_out, AutomaticSettings& automatic) {
   setting.set(setting.default_value);
-  if (left_out == LeftOut::automatic && setting.automatic && !setting.keeps_default) automatic.keys.insert(setting.key);
+  if (left_out != LeftOut::defaults && setting.automatic && !setting.keeps_default) automatic.keys.insert(setting.key);
   if (setting.default_chosen && !automatic.keys.contains(setting.key)) automatic.default_radii.insert(setting.key);
 }
 

@@ -83,13 +83,15 @@ ScenePlan read_plan(TableReader& root, const Document& document, const GivenPart
   return plan;
 }
 
-/// Does the document or an option name an integrator?
-bool names_integrator(const Document& document, const std::vector<std::string>& options) {
-  const Entry* const entry = find_entry(*document.root.table(), "integrator");
+/// Does a table of the document, or an option, give a key?
+bool gives(const Document& document, const std::vector<std::string>& options, const std::string& table_name,
+           const std::string& key) {
+  const Entry* const entry = find_entry(*document.root.table(), table_name);
   const Node::Table* const table = entry ? entry->node.table() : nullptr;
-  return (table && find_entry(*table, "type")) ||
+  const std::string begin = table_name + "." + key + "=";
+  return (table && find_entry(*table, key)) ||
          std::any_of(options.begin(), options.end(),
-                     [](const std::string& option) { return option.starts_with("integrator.type="); });
+                     [&](const std::string& option) { return option.starts_with(begin); });
 }
 
 /// Moves the parts out of the plan: the tables stay.
@@ -220,13 +222,15 @@ RenderJob job_of(const Document& document, const GivenParts& given, LeftOut left
 /// The same of one without its options.
 RenderJob job_with(Document document, const std::vector<std::string>& options, LeftOut left_out,
                    const GivenParts& given, const GridLoader& load) {
-  if (left_out == LeftOut::automatic && !names_integrator(document, options))
+  const bool all = left_out == LeftOut::all_automatic ||
+                   (left_out == LeftOut::automatic && gives(document, options, "render", "seconds"));
+  if (all && !gives(document, options, "integrator", "type"))
     apply_override(document, fmt::format("integrator.type={}", kAuto));  // first: what options say is not left out
   for (const std::string& option : options) apply_override(document, option);
   RenderJob job = job_of(document, given, left_out, load);
   job.source = document.sources.front()->name;
   job.overrides = options;
-  job.chooses_defaults = left_out == LeftOut::automatic;
+  job.chooses_defaults = left_out != LeftOut::defaults;
   return job;
 }
 

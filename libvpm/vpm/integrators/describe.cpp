@@ -46,7 +46,7 @@ std::vector<Setting> describe(RenderSettings& settings) {
   Members<S>(settings, description.in("integrator"))
       .add("type", &S::integrator,
            "photon mapping, the unbiased reference path tracer, or all techniques `\"combined\"`, see below",
-           {.automatic = true});
+           {.automatic = true, .keeps_default = true});
   info_of(settings.integrator).describe(settings, description);
   return description.take();
 }

@@ -12,8 +12,8 @@ const IntegratorInfo& info_of(Integrator integrator) {
   return *all.at(static_cast<size_t>(integrator));
 }
 
-RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares) {
-  return info_of(settings.integrator).rays(scene, settings, pass, paths_of_shares);
+RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass) {
+  return info_of(settings.integrator).rays(scene, settings, pass);
 }
 
 }  // namespace vpm

@@ -9,6 +9,7 @@
 
 #include "vpm/film/image_pass.h"
 #include "vpm/image/image.h"
+#include "vpm/integrators/choice.h"
 #include "vpm/integrators/render_scene.h"
 
 namespace vpm {
@@ -22,6 +23,12 @@ struct RaysOfPass {
   RenderStatistics statistics{};
 };
 
+/// A way to render: an integrator and the components that it uses.
+struct Way {
+  std::string name;  // "photon-map by beam"
+  RenderSettings settings;
+};
+
 struct IntegratorInfo {
   /// Its settings, but for `type` of [integrator].
   void (*describe)(RenderSettings&, Description&);
@@ -29,7 +36,7 @@ struct IntegratorInfo {
   void (*check)(const RenderSettings&, const SceneFacts&) = nullptr;
   /// Passes of the whole film, without the camera's crop.
   PassMaker (*passes)(const Scene&, const RenderSettings&);
-  RaysOfPass (*rays)(const Scene&, const RenderSettings&, int pass, uint64_t paths_of_shares);
+  RaysOfPass (*rays)(const Scene&, const RenderSettings&, int pass);
   /// See gathers(), stage_lines(), layer_names(), integrator_warnings(). Null: it never gathers, has no layers, warns
   /// of nothing.
   bool (*gathers)(const Scene&, const RenderSettings&) = nullptr;
@@ -37,11 +44,15 @@ struct IntegratorInfo {
   std::vector<std::string> (*layers)(const RenderSettings&) = nullptr;
   std::vector<std::string> (*warnings)(const SceneFacts& shown, const RenderSettings&,
                                        const RenderStatistics&) = nullptr;
+  /// The ways to render by it that are worth a try where some components are to be chosen: of equals the first is to be
+  /// taken. Null: it is the only one.
+  std::vector<Way> (*ways)(const Scene&, const AutomaticSettings&, const Way& given) = nullptr;
+  /// The noise of its photons falls as this power of the radii that they are gathered within. Null: it has none.
+  double (*power_of_noise)(const RenderSettings&) = nullptr;
 };
 const IntegratorInfo& info_of(Integrator integrator);
 
-/// Makes pass number `pass` ready; the scene must live longer than what is returned. `paths_of_shares` is for combined
-/// techniques, see CombinedPass.
-RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares = 0);
+/// Makes pass number `pass` ready; the scene must live longer than what is returned.
+RaysOfPass rays_of_pass(const Scene& scene, const RenderSettings& settings, int pass);
 
 }  // namespace vpm

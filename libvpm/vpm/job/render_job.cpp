@@ -6,30 +6,22 @@
 #include <cmath>
 
 #include "vpm/base/error.h"
+#include "vpm/integrators/default_radii.h"
 #include "vpm/integrators/describe.h"
 #include "vpm/integrators/render_scene.h"
+#include "vpm/job/forecast.h"
 #include "vpm/job/lost_light.h"
 #include "vpm/render/pass_time.h"
 #include "vpm/render/render.h"
 #include "vpm/tune/automatic.h"
-#include "vpm/tune/choose_records.h"
-#include "vpm/tune/forecast.h"
-#include "vpm/tune/pilot.h"
 
 namespace vpm {
 namespace {
 
-/// The share of the film's pixels that are rendered.
-double share_rendered(const Camera& camera) {
-  const PixelRect rendered = camera.rendered();
-  return double(rendered.width()) * rendered.height() / (double(camera.width) * camera.height);
-}
-
 /// The share of a time that is asked for which a look ahead may take, each.
 constexpr double kLookShare = 0.1;
 
-constexpr double kChoosingShare = 0.25;  // of what is left of that time
-constexpr double kLeastTime = 0.01;      // s: pilots for less are as for this
+constexpr double kLeastTime = 0.01;  // s: pilots for less are as for this
 
 /// What is left of the time that is asked for, s; infinite where none is.
 double time_left(const RenderJob& job, const Clock& clock) {
@@ -38,10 +30,9 @@ double time_left(const RenderJob& job, const Clock& clock) {
 }
 
 /// "about 210000 integrator.photons.emitted, or integrator.volume.radius = 0.12 would fit"; either may be missing.
-std::string what_fits_text(const std::string& photons, const std::string& radius, const PassCost& cost) {
+std::string what_fits_text(const std::string& photons, const std::string& radius, double of_rays) {
   if (photons.empty() && radius.empty())
-    return fmt::format("the eye's rays alone take {:.2g} s; fewer pixels or samples_per_pixel take less",
-                       cost.eye - cost.gathered);
+    return fmt::format("the eye's rays alone take {:.2g} s; fewer pixels or samples_per_pixel take less", of_rays);
   return fmt::format("{}{}{} would fit", photons, photons.empty() || radius.empty() ? "" : ", or ", radius);
 }
 
@@ -72,11 +63,9 @@ void choose_automatic(RenderJob& job, const Clock& clock) {
   const double asked = job.settings.until.seconds;
   RenderSettings settings = job.settings;
   if (asked > 0.0) settings.until.seconds = std::max(left, kLeastTime);
-  Chosen chosen = choose_settings(job.scene, job.automatic, {clock, begin + kChoosingShare * left}, settings);
+  job.choices = choose_settings(job.scene, job.automatic, clock, settings);
   settings.until.seconds = asked;
   job.settings = settings;
-  job.choices = std::move(chosen.choices);
-  if (!chosen.not_chosen.empty()) job.notes.push_back(std::move(chosen.not_chosen));
   if (!job.choices.empty())
     job.notes.push_back(fmt::format("choosing settings took {:.2g} s", clock.seconds() - begin));
   note_choices(job);
@@ -146,20 +135,17 @@ void foresee(RenderJob& job, const Clock& clock) {
     wide = fmt::format("a look of {:.2g} s is too short to count the photons that a ray gathers", looking);
   if (!wide.empty()) job.notes.push_back(std::move(wide));
   if (std::isinf(left)) return;
-  PassCost cost;
-  if (!within(2.0 * looking, [&] { cost = time_pass(job.scene, job.settings, looking); })) {
+  ForeseenPass pass;
+  if (!within(2.0 * looking, [&] { pass = foresee_pass(job.scene, job.settings, looking, clock); })) {
     job.notes.push_back(fmt::format("a look of {:.2g} s is too short to time a pass", 2.0 * looking));
     return;
   }
-  const double share = share_rendered(job.scene.camera);
-  cost.eye *= share;
-  cost.gathered *= share;
-  job.foreseen_pass = cost.seconds(photons_of_pass(job.settings, cost.stored_per_photon));
+  job.foreseen_pass = pass.seconds;
   const double fits = time_left(job, clock);
   if (job.foreseen_pass <= fits) return;
   std::string radius;
-  within(looking, [&] { radius = radius_that_fits(job.scene, job.settings, fits / share, looking); });
-  job.what_fits = what_fits_text(photons_that_fit(cost, job.settings, fits), radius, cost);
+  within(looking, [&] { radius = radius_that_fits(job.scene, job.settings, fits, looking, clock); });
+  job.what_fits = what_fits_text(photons_that_fit(pass, job.settings, fits), radius, pass.of_rays);
   job.notes.push_back(fmt::format("one pass takes about {:.2g} s, longer than the {:.2g} s that are left: {}",
                                   job.foreseen_pass, fits, job.what_fits));
 }

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "vpm/base/clock.h"
+#include "vpm/integrators/choice.h"
 #include "vpm/integrators/settings.h"
 #include "vpm/scene/assemble.h"
-#include "vpm/tune/choice.h"
 
 namespace vpm {
 

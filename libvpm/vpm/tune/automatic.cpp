@@ -1,58 +1,77 @@
-// The order in which settings are chosen: the strategy, the way to render, what a pass stores.
+// By time, a race of ways to render; else radii by where photons lie, and their number by what is counted.
 #include "vpm/tune/automatic.h"
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <utility>
 
 #include "vpm/base/counters.h"
 #include "vpm/base/error.h"
+#include "vpm/integrators/default_radii.h"
 #include "vpm/integrators/describe.h"
-#include "vpm/tune/choice_rules.h"
-#include "vpm/tune/pilot.h"
-#include "vpm/tune/trials.h"
+#include "vpm/integrators/words.h"
+#include "vpm/tune/race.h"
+#include "vpm/tune/small_pass.h"
 
 namespace vpm {
 namespace {
 
-Choice choose_strategy(const Scene& scene, RenderSettings& settings) {
-  const bool grids = std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grid; });
-  std::string reason = "no medium is a grid: exact there, and nothing to look up", strategy = "homogeneous";
-  if (grids) {
-    if (!kCounts)
-      throw InputError(
-          "integrator.distance.type: this program does not count look-ups, and cannot choose: name a strategy");
-    const std::vector<StrategyCost> costs = strategy_costs(scene, settings);
-    strategy = cheapest(costs).name;
-    reason = "of exact strategies the cheapest in a pilot, in look-ups for a photon:";
-    for (const StrategyCost& each : costs) reason += fmt::format(" {} {:.3g}", each.name, each.cost);
+constexpr const char* kIntegratorKey = "integrator.type";
+constexpr const char* kPhotonsKey = "integrator.photons.emitted";
+
+/// As many photons as have as many rays and look-ups as those from the eye. 0 where there are none.
+uint64_t photons_by_counts(const Scene& scene, RenderSettings settings) {
+  constexpr double kPilot = 20'000.0, kFewest = 1000.0, kMost = 4e6;  // photons
+  settings.seed = ~settings.seed;
+  settings.photons.emitted = static_cast<uint64_t>(kPilot);
+  settings.caustics.emitted = std::min(settings.caustics.emitted, settings.photons.emitted);
+  const SmallPass pass = render_small(scene, settings, 0, BlocksTaken::all, WallClock());
+  if (pass.photon_steps == 0) return 0;
+  const double balanced = pass.eye_steps / static_cast<double>(pass.photon_steps) * pass.photons;
+  return static_cast<uint64_t>(rounded(std::clamp(balanced, kFewest, kMost), 2));
+}
+
+std::vector<Choice> choose_by_counts(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
+  std::vector<Choice> choices;
+  if (automatic.has(kIntegratorKey))
+    choices.push_back({kIntegratorKey, word_of(settings.integrator), "the first, as no time is asked for to compare"});
+  if (automatic.has(kPhotonsKey) && settings.integrator != Integrator::path && kCounts) {
+    if (const uint64_t photons = photons_by_counts(scene, settings); photons > 0) {
+      settings.photons.emitted = photons;
+      choices.push_back({kPhotonsKey, fmt::format("{}", photons), "as many rays and look-ups as from the eye"});
+    }
   }
-  settings.distance = {strategy};
-  return {"integrator.distance.type", strategy, reason};
+  for (Choice& choice : choose_default_radii(scene, automatic, settings)) choices.push_back(std::move(choice));
+  return choices;
+}
+
+/// The components of the winner that were to be chosen: the integrator first.
+std::vector<Choice> components_of(const AutomaticSettings& automatic, const Winner& winner) {
+  std::vector<Choice> choices;
+  RenderSettings settings = winner.settings;
+  for (const Setting& setting : describe(settings)) {
+    const bool is_component =
+        std::holds_alternative<Words>(setting.domain) || std::holds_alternative<WordSet>(setting.domain);
+    const bool open = automatic.has(setting.key) || automatic.has(kIntegratorKey);
+    if (!setting.automatic || !is_component || !open) continue;
+    choices.push_back({setting.key, std::get<std::string>(setting.get()),
+                       choices.empty() ? winner.reason : fmt::format("with {}, see there", choices.front().key)});
+  }
+  return choices;
 }
 
 }  // namespace
 
-Chosen choose_settings(const Scene& scene, const AutomaticSettings& automatic, const ChoosingTime& time,
-                       RenderSettings& settings) {
-  constexpr size_t kParts = 5;  // of the time, one for the strategy
-  Chosen chosen;
-  const auto strategy = [&] { chosen.choices.push_back(choose_strategy(scene, settings)); };
-  if (automatic.has("integrator.distance.type") && !scene.media.empty() &&
-      !time.clock.finish_by(time.end_of_next(kParts), strategy))
-    chosen.not_chosen = "the time does not allow to choose a distance strategy";
-  std::vector<Choice> more;
-  if (asks_for_trials(scene, automatic, settings)) {
-    more = choose_by_trials(scene, automatic, time, settings);
-  } else if (std::string not_chosen = choose_and_scale_records(scene, automatic, time, settings, more);
-             !not_chosen.empty()) {
-    chosen.not_chosen = std::move(not_chosen);
-  }
-  for (Choice& choice : more) chosen.choices.push_back(std::move(choice));
-  // The integrator first, as it decides which others there are.
-  std::stable_partition(chosen.choices.begin(), chosen.choices.end(),
-                        [](const Choice& choice) { return choice.key == "integrator.type"; });
-  return chosen;
+std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, const Clock& clock,
+                                    RenderSettings& settings) {
+  if (settings.until.seconds == 0.0) return choose_by_counts(scene, automatic, settings);
+  const OpenWays open = open_ways(scene, automatic, settings);
+  if (open.ways.empty()) throw InputError(fmt::format("nothing can be chosen{}", open.refused));
+  Winner winner = race(scene, automatic, open.ways, clock);
+  winner.reason += open.refused;
+  settings = winner.settings;
+  std::vector<Choice> choices = components_of(automatic, winner);
+  for (Choice& choice : winner.choices) choices.push_back(std::move(choice));
+  return choices;
 }
 
 void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value) {

@@ -47,7 +47,7 @@ TriangleMesh triangle_mesh(const Floats& vertices, const Indices& faces, const s
 using GivenGrid = std::tuple<std::string, std::string, py::array_t<float>, Doubles>;  // of a medium, in a role
 using GivenMesh = std::tuple<size_t, Floats, Indices, std::optional<Floats>, std::optional<Floats>>;
 
-LeftOut left_out(bool automatic) { return automatic ? LeftOut::automatic : LeftOut::defaults; }
+LeftOut left_out(bool automatic) { return automatic ? LeftOut::all_automatic : LeftOut::defaults; }
 
 /// The scene that load_job() loads. What a signal's handler raises meanwhile ends that.
 std::shared_ptr<SceneJob> load(const std::function<RenderJob()>& load_job) {

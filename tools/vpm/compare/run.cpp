@@ -53,7 +53,7 @@ MethodRun run_method(const RenderJob& job, const ComparisonPlan& plan, int repet
   MethodRun run;
   if (!job.automatic.keys.empty()) {
     settings.until = {.seconds = plan.budgets.back() / thread_count()};
-    run.choices = choose_settings(job.scene, job.automatic, {WallClock(), kInfinity}, settings).choices;
+    run.choices = choose_settings(job.scene, job.automatic, WallClock(), settings);
   }
   settings.until = {.passes = kMostPasses};
   std::vector<Snapshot>& snapshots = run.snapshots;

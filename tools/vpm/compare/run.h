@@ -6,10 +6,10 @@
 #include "vpm/base/progress.h"
 #include "vpm/image/image.h"
 #include "vpm/input/scene_file.h"
+#include "vpm/integrators/choice.h"
 #include "vpm/job/found_by_techniques.h"
 #include "vpm/render/render.h"
 #include "vpm/study/compare/experiment.h"
-#include "vpm/tune/choice.h"
 
 namespace vpm::tools {
 

@@ -63,11 +63,6 @@ TechniqueCounts counts_of_pass(const Scene& scene, const RenderSettings& setting
   return counts;
 }
 
-RenderSettings with_shares_of(RenderSettings settings, uint64_t light_paths) {
-  if (light_paths > 0) settings.photons.emitted = light_paths;
-  return settings;
-}
-
 /// A few sub-paths that are independent of those of the pass.
 LightSubPaths few_paths(const LightTracing& tracing, const PhotonNumbers& numbers, uint64_t first, uint64_t number) {
   TechniqueCounts counts;
@@ -92,14 +87,14 @@ void count_by_few(const LightTracing& tracing, const RenderSettings& settings, i
 
 }  // namespace
 
-CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares)
+CombinedPass::CombinedPass(const Scene& scene, const RenderSettings& settings, int pass)
     : scene_(scene),
       paths_(settings.photons.emitted),
       max_events_(settings.max_events),
       strategy_(make_distance_strategy(settings.distance, {.pass = static_cast<uint64_t>(pass)})),
       transmittance_(make_transmittance_estimator({})),
       kernels_(kernels_of_pass(scene, settings, pass)),
-      counts_(counts_of_pass(scene, with_shares_of(settings, paths_of_shares), kernels_)) {
+      counts_(counts_of_pass(scene, settings, kernels_)) {
   const PhotonNumbers numbers(settings.photons.sequence, settings.seed, static_cast<uint64_t>(pass));
   const LightTracing tracing{scene, *strategy_, *transmittance_, counts_, numbers, max_events_, kConnectable};
   const Stopwatch clock;

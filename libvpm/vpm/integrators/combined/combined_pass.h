@@ -15,9 +15,7 @@ namespace vpm {
 /// Immutable while rays run; the scene must live as long.
 class CombinedPass {
  public:
-  /// Shares are those of a pass with `paths_of_shares` light sub-paths, if that is not 0: a part of a pass then finds
-  /// what the whole does, with more noise.
-  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares = 0);
+  CombinedPass(const Scene& scene, const RenderSettings& settings, int pass);
 
   /// combined_radiance() along a ray of the camera, or along several.
   KernelEstimate radiance(const Ray& ray, EyeWork& work) const;

@@ -68,12 +68,31 @@ PassMaker passes_of_combined(const Scene& scene, const RenderSettings& settings)
   return {make, tile_count(scene.camera)};
 }
 
-RaysOfPass rays_of_combined(const Scene& scene, const RenderSettings& settings, int pass, uint64_t paths_of_shares) {
-  const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass, paths_of_shares);
+RaysOfPass rays_of_combined(const Scene& scene, const RenderSettings& settings, int pass) {
+  const auto ready = std::make_shared<const CombinedPass>(scene, settings, pass);
   RaysOfPass rays{[ready](std::span<EyeRay> of) { ready->radiance(of); },
                   Image(scene.camera.width, scene.camera.height), ready->statistics()};
   ready->add_light_tracing(rays.light_tracing);
   return rays;
+}
+
+/// Those that are used without asking; without beams, which cost most and find nothing where there are no media; and
+/// without light tracing, whose shadow rays may cost more than they are worth.
+std::vector<Way> ways_of_combined(const Scene& scene, const AutomaticSettings& automatic, const Way& given) {
+  const bool open = automatic.has("integrator.type") || automatic.has("integrator.techniques");
+  if (!open || given.settings.combined.techniques != TechniqueSet()) return {given};
+  Way no_beams = given;
+  no_beams.settings.combined.techniques.set(Technique::short_beams, false);
+  no_beams.name += " without short-beams";
+  Way fewest = no_beams;
+  fewest.settings.combined.techniques.set(Technique::light_tracing, false);
+  fewest.name += " and light-tracing";
+  if (!facts_of(scene).scattering_media) return {fewest, no_beams};
+  return {fewest, no_beams, given};
+}
+
+double power_of_noise_of_merges(const RenderSettings& settings) {
+  return settings.combined.techniques.has(Technique::short_beams) ? 1.0 : 2.0;
 }
 
 std::vector<std::string> stages_of_combined(const Scene& scene, const RenderSettings& settings, const SceneFacts&) {
@@ -96,6 +115,8 @@ const IntegratorInfo kCombined{
     .gathers = [](const Scene&, const RenderSettings& settings) { return merges(settings.combined.techniques); },
     .stages = stages_of_combined,
     .layers = layers_of_techniques,
+    .ways = ways_of_combined,
+    .power_of_noise = power_of_noise_of_merges,
 };
 
 }  // namespace vpm

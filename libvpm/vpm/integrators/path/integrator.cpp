@@ -22,7 +22,7 @@ PassMaker passes_of_paths(const Scene& scene, const RenderSettings& settings) {
   return {make, tile_count(scene.camera)};
 }
 
-RaysOfPass rays_of_paths(const Scene& scene, const RenderSettings& settings, int pass, uint64_t) {
+RaysOfPass rays_of_paths(const Scene& scene, const RenderSettings& settings, int pass) {
   const auto context = std::make_shared<const PathContext>(make_path_context(scene, settings, pass));
   const auto radiance = [context, &scene](const Ray& ray, EyeWork& work) -> KernelEstimate {
     return {path_radiance(*context, ray, medium_of_ray(scene, scene.camera_medium, ray), work.rng, work.counters)};

@@ -49,8 +49,7 @@ void describe(DistanceSettings& settings, std::vector<std::string> types, const 
   Members(settings, description, {default_type})
       .add("type", &DistanceSettings::strategy, Words{std::move(types)},
            "how photons and paths fly; [papers/distance-strategies.md](../papers/distance-strategies.md) says what "
-           "each strategy is and how it fails. `\"homogeneous\"` is refused in grids",
-           {.automatic = true});
+           "each strategy is and how it fails. `\"homogeneous\"` is refused in grids");
   if (const StrategyInfo* const info = find_strategy(settings.strategy))
     describe(info->parameters, settings.parameters, description);
 }

@@ -1,20 +1,23 @@
-// How many photons or light sub-paths a pass has, and within which radii they are gathered.
-#include "vpm/tune/choose_records.h"
+// A radius holds so many photons, within bounds of the picture, the medium and the scene.
+#include "vpm/integrators/default_radii.h"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <string_view>
+#include <tuple>
 
 #include "vpm/estimate/photon_map.h"
 #include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/integrators/photon_map/plan.h"
-#include "vpm/integrators/photon_map/volume/estimator_info.h"
-#include "vpm/tune/choice_rules.h"
 
 namespace vpm {
 namespace {
 
-constexpr uint64_t kPhotonsOfPilot = 100'000, kPhotonsOfDefaults = 20'000;  // by which densities are measured
+constexpr double kHalfPixel = 0.5;               // pixels: the least radius
+constexpr uint64_t kPhotonsOfDefaults = 20'000;  // by which densities are measured
+
+float rounded_radius(double radius) { return static_cast<float>(rounded(radius, 3)); }
 
 /// A gather radius to be chosen.
 struct OpenRadius {
@@ -70,7 +73,44 @@ ChosenRadius narrow(const ChosenRadius& chosen, const OpenRadius& open, const Sc
                             chosen.radius, chosen.reason)};
 }
 
-/// Sets the radii that are chosen, for the settings' number of photons.
+}  // namespace
+
+double rounded(double value, int digits) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
+  return unit >= 1.0 ? std::round(value / unit) * unit : std::round(value / unit) / std::round(1.0 / unit);
+}
+
+ChosenRadius choose_radius(const MapDensity& density, double emitted, double diagonal) {
+  const auto holding = [&](double records) {  // the radius, m
+    const double share = records / density.within * density.emitted / emitted;
+    return density.reach * std::pow(share, 1.0 / density.dimension);
+  };
+  const auto within = [&](double records) {
+    return fmt::format("{:g} {} of the first pass are within it at a typical place of the picture", records,
+                       density.records);
+  };
+  const double wanted = holding(kPhotonsWithin), half_pixel = kHalfPixel * density.footprint;
+  const std::string would = fmt::format("{:.3g} m would hold {:g} {} at a typical place of the picture", wanted,
+                                        kPhotonsWithin, density.records);
+  double radius = wanted;
+  std::string reason = within(kPhotonsWithin);
+  if (radius < half_pixel) std::tie(radius, reason) = std::pair(half_pixel, "half a pixel; " + would);
+  const auto keep_below = [&](double bound, const std::string& name) {
+    if (radius > bound) std::tie(radius, reason) = std::pair(bound, name + "; " + would);
+  };
+  const auto keep_in_medium = [&](double bound, const std::string& name) {
+    const double least = holding(kLeastWithin);
+    if (bound < least)
+      keep_below(least, within(kLeastWithin) + ", and fewer within " + name);
+    else
+      keep_below(bound, name);
+  };
+  keep_in_medium(kShareOfMedium * density.thickness, "a tenth of the medium's thickness");
+  keep_in_medium(density.free_path, "the mean free path there");
+  keep_below(kLargestRadius * diagonal, "a twentieth of the scene");
+  return {rounded_radius(radius), reason};
+}
+
 std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
                                  RenderSettings& settings) {
   std::vector<Choice> choices;
@@ -94,42 +134,8 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
   return choices;
 }
 
-/// For points, whose eye pass takes about as long under radii that are chosen for any number of photons.
-ChosenCount choose_count_of_points(double seconds, const std::function<PassCost(uint64_t)>& cost_of) {
-  constexpr uint64_t kFirst = 20'000;    // photons
-  constexpr uint64_t kMost = 1'000'000;  // of a pilot that asks again with the number found
-  ChosenCount chosen{kFirst, ""};
-  for (int round = 0; round < 2; ++round) chosen = choose_count(cost_of(std::min(chosen.count, kMost)), seconds);
-  if (seconds == 0.0) return chosen;
-  return make_fit(chosen, seconds,
-                  [&](uint64_t photons) { return cost_of(photons).seconds(static_cast<double>(photons)); });
-}
-
-/// Costs a pass under radii as they would be, in timings of `limit` s at the most.
-Choice choose_photons(const Scene& scene, const AutomaticSettings& automatic, const MapDensities& densities,
-                      double limit, RenderSettings& settings) {
-  const double seconds = settings.until.seconds;
-  RenderSettings tried = settings;
-  const auto cost_of = [&](uint64_t photons) {
-    tried.photons.emitted = photons;
-    choose_radii(scene, automatic, densities, tried);
-    return time_pass(scene, tried, limit);
-  };
-  const ChosenCount chosen =
-      (crosses_flights(settings) ? choose_count_of_flights : choose_count_of_points)(kPassesShare * seconds, cost_of);
-  settings.photons.emitted = chosen.count;
-  std::string reason = chosen.reason;
-  if (settings.volume.info().planes && settings.integrator == Integrator::photon)
-    reason += fmt::format(
-        "; with {} planes ('planes' of [integrator.volume]), each of which costs a shadow ray where it is "
-        "crossed",
-        settings.volume.planes);
-  return {"integrator.photons.emitted", fmt::format("{}", chosen.count), reason};
-}
-
-/// What a pilot of so many photons says of densities; nothing where there is nothing to choose.
-std::optional<MapDensities> densities_by(uint64_t photons, const Scene& scene, const AutomaticSettings& automatic,
-                                         const RenderSettings& settings) {
+std::optional<MapDensities> densities_for_radii(uint64_t photons, const Scene& scene,
+                                                const AutomaticSettings& automatic, const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return std::nullopt;
   const RenderSettings maps = as_maps(settings);
   const Estimators planned = plan_estimators(scene, maps, 0);
@@ -139,43 +145,12 @@ std::optional<MapDensities> densities_by(uint64_t photons, const Scene& scene, c
   return std::nullopt;
 }
 
-}  // namespace
-
-bool crosses_flights(const RenderSettings& settings) {
-  const TechniqueSet& techniques = settings.combined.techniques;
-  return settings.integrator == Integrator::combined ? techniques.has(Technique::short_beams)
-                                                     : settings.volume.info().flights;
-}
-
-std::optional<MapDensities> densities_for_records(const Scene& scene, const AutomaticSettings& automatic,
-                                                  const RenderSettings& settings) {
-  return densities_by(in_a_hurry(kPhotonsOfPilot, settings), scene, automatic, settings);
-}
-
 std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSettings& automatic,
                                          RenderSettings& settings) {
-  RenderSettings unhurried = settings;
-  unhurried.until = {};
   const uint64_t emitted = settings.photons.emitted;
   const uint64_t photons = emitted > 0 ? std::min(emitted, kPhotonsOfDefaults) : kPhotonsOfDefaults;
-  const auto densities = densities_by(photons, scene, automatic, unhurried);
+  const auto densities = densities_for_radii(photons, scene, automatic, settings);
   return densities ? choose_radii(scene, automatic, *densities, settings) : std::vector<Choice>();
-}
-
-std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic,
-                                   const std::optional<MapDensities>& densities, double limit,
-                                   RenderSettings& settings) {
-  if (!densities) return {};
-  std::vector<Choice> choices;
-  if (automatic.has("integrator.photons.emitted"))
-    choices.push_back(choose_photons(scene, automatic, *densities, limit, settings));
-  for (Choice& choice : choose_radii(scene, automatic, *densities, settings)) choices.push_back(std::move(choice));
-  return choices;
-}
-
-std::vector<Choice> choose_records(const Scene& scene, const AutomaticSettings& automatic, double limit,
-                                   RenderSettings& settings) {
-  return choose_records(scene, automatic, densities_for_records(scene, automatic, settings), limit, settings);
 }
 
 }  // namespace vpm

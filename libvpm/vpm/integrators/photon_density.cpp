@@ -1,5 +1,5 @@
 // Pilot photons, and the places at which the eye gathers them.
-#include "vpm/tune/pilot.h"
+#include "vpm/integrators/photon_density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,16 +19,11 @@
 namespace vpm {
 namespace {
 
-constexpr uint64_t kFlights = 20'000;      // photons that compare strategies
 constexpr uint64_t kStored = 1'000'000;    // of a pilot's photons, at the most
 constexpr size_t kEyePaths = 4096;         // that find where the eye gathers
 constexpr size_t kProbes = 512;            // places, of these
 constexpr size_t kFlightsAround = 32'000;  // by which distances of flights are measured, at the most
 constexpr uint32_t kNeighbours = 16;       // counted at a place: the density there is known to a quarter
-
-// What flights cost, in look-ups of density at random places: fitted to the CPU time of photons in the grids of
-// scenes/smoke.toml and scenes/cloud.toml (2026-11-23: 31 ns a cell of regular tracking, 36 a look-up, 18 a brick).
-constexpr double kCellCost = 0.85, kLookupCost = 1.0, kBrickCost = 0.5;
 
 /// A place at which the eye gathers.
 struct Probe {
@@ -202,13 +197,6 @@ std::vector<Probe> probes_or_places(const Camera& camera, const std::vector<Prob
   return places;
 }
 
-/// The share of the usual photons that a pilot may trace: where a render has few seconds, a pilot is to take few of
-/// them.
-double share_of_photons(const RenderSettings& settings) {
-  constexpr double kUnhurried = 20.0;  // s
-  return settings.until.seconds > 0.0 ? std::clamp(settings.until.seconds / kUnhurried, 0.02, 1.0) : 1.0;
-}
-
 /// The records of all media together.
 template <class Record>
 std::vector<Record> of_all_media(const std::vector<std::vector<Record>>& by_medium) {
@@ -219,34 +207,6 @@ std::vector<Record> of_all_media(const std::vector<std::vector<Record>>& by_medi
 
 /// A map's photons before it is sorted, those of media together.
 std::vector<Photon> photons_of(const MapInfo& map) { return map.surfaces ? *map.surfaces : of_all_media(*map.media); }
-
-/// Counts collisions alone, so that tracing ends once there are many.
-class CollisionCount final : public PhotonRecorder {
- public:
-  std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<CollisionCount>(); }
-  void join(PhotonRecorder& part) override { number_ += static_cast<CollisionCount&>(part).number_; }
-  size_t stored() const override { return number_; }
-  RecordNeeds needs() const override { return {.flights = false, .hits = false}; }
-  void collided(const ArrivingPhoton&) override { ++number_; }
-
- private:
-  size_t number_ = 0;
-};
-
-/// What photons count on their way, also in renders that have no map.
-Ledger flights_of(const Scene& scene, const RenderSettings& settings) {
-  CollisionCount collisions;
-  TraceSettings trace;
-  trace.seed = settings.seed;
-  trace.emitted = settings.photons.emitted;
-  trace.stored = settings.photons.stored;
-  trace.max_events = settings.max_events;
-  const bool maps_density =
-      settings.integrator == Integrator::photon && settings.volume.form == VolumeForm::density_at_query;
-  const auto strategy = make_distance_strategy(settings.distance, {.density = maps_density});
-  Progress silent("photons", 0, false);
-  return trace_photons(scene, *strategy, trace, {&collisions}, silent);
-}
 
 /// The pilot's only pass, traced.
 struct PilotPass {
@@ -262,31 +222,12 @@ PilotPass trace(const Scene& scene, const RenderSettings& settings) {
 
 }  // namespace
 
-uint64_t in_a_hurry(uint64_t photons, const RenderSettings& settings) {
-  return static_cast<uint64_t>(static_cast<double>(photons) * share_of_photons(settings));
-}
-
 RenderSettings pilot_settings(RenderSettings settings, uint64_t photons) {
   settings.seed = ~settings.seed;
   settings.photons.emitted = photons;
-  settings.photons.stored = in_a_hurry(kStored, settings);
+  settings.photons.stored = kStored;
   settings.radii = RadiusSchedule::constant;
   return settings;
-}
-
-std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSettings& settings) {
-  std::vector<StrategyCost> costs;
-  for (const StrategyInfo& info : distance_strategies()) {
-    if (!info.heterogeneous || !info.unbiased || !info.bounded_weight || !info.positive) continue;
-    RenderSettings tried = pilot_settings(settings, in_a_hurry(kFlights, settings));
-    tried.distance = {std::string(info.name)};
-    const Ledger ledger = flights_of(scene, tried);
-    const double lookup = info.name == "regular" ? kCellCost : kLookupCost;
-    const double cost =
-        lookup * static_cast<double>(ledger.walk.lookups) + kBrickCost * static_cast<double>(ledger.walk.bricks);
-    costs.push_back({info.name, cost / static_cast<double>(ledger.emitted_count)});
-  }
-  return costs;
 }
 
 MapDensities map_densities(const Scene& scene, const RenderSettings& settings, uint64_t photons) {

@@ -3,18 +3,31 @@
 
 #include <string>
 
+#include "vpm/base/clock.h"
 #include "vpm/integrators/settings.h"
 #include "vpm/scene/scene.h"
-#include "vpm/tune/pass_cost.h"
 
 namespace vpm {
 
-/// "about 210000 integrator.photons.emitted": with which a pass of that cost takes so many seconds, > 0; "" where its
-/// rays alone take longer.
-std::string photons_that_fit(const PassCost& cost, const RenderSettings& settings, double seconds);
+/// What a pass takes, s, by small passes that took about `looking` s.
+struct ForeseenPass {
+  double seconds = 0.0;
+  double of_rays = 0.0;  // of these, what rays take whatever photons there are
+  double photons = 0.0;  // that it emits; 0: none
+};
+ForeseenPass foresee_pass(const Scene& scene, const RenderSettings& settings, double looking,
+                          const Clock& clock = WallClock());
+
+/// "about 210000 integrator.photons.emitted": with which the pass takes so many seconds, > 0; "" where its rays alone
+/// take longer.
+std::string photons_that_fit(const ForeseenPass& pass, const RenderSettings& settings, double seconds);
 /// "integrator.volume.radius = 0.12": the first half, quarter, ... of the radius with which a pass takes less; "" where
 /// there is none, or no radius decides what is gathered. Passes are timed for `looking` s in all, or a little longer.
-std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking);
+std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking,
+                             const Clock& clock = WallClock());
+
+/// What passes show: a picture what the eye sees, a light map surfaces alone.
+enum class PassOf { picture, light_map };
 
 /// "a ray from the eye gathers about 430000 photons, ...": where it gathers more than 100,000 within the radii of
 /// the first pass; else "". Estimated from a few photons and rays.

@@ -1,23 +1,12 @@
-// The pilot of automatic settings: a few photons and a few rays from the eye measure what a render costs and finds.
+// How dense photons lie where the eye gathers them: a few photons and a few paths from the eye say.
 #pragma once
 
 #include <optional>
-#include <string_view>
-#include <vector>
 
 #include "vpm/integrators/settings.h"
 #include "vpm/scene/scene.h"
 
 namespace vpm {
-
-/// What flights of a pilot have counted, by strategy.
-struct StrategyCost {
-  std::string_view name;
-  double cost = 0.0;  // of flights of one photon, in look-ups of density
-};
-/// What flights cost under each strategy that is exact in the scene's media and keeps weights bounded: a pure function
-/// of scene and settings, as map_densities(): where a time is asked for, fewer photons fly.
-std::vector<StrategyCost> strategy_costs(const Scene& scene, const RenderSettings& settings);
 
 /// How dense photons lie where they are gathered, or how near to there flights pass, where these are gathered.
 struct MapDensity {
@@ -42,9 +31,6 @@ MapDensities map_densities(const Scene& scene, const RenderSettings& settings, u
 
 /// The photons that a pass emits: the settings', or as many as fill the maps, of which so many are stored each.
 double photons_of_pass(const RenderSettings& settings, double stored_per_photon);
-
-/// Of so many photons, those that a pilot may trace: where a render has few seconds, a pilot is to take few of them.
-uint64_t in_a_hurry(uint64_t photons, const RenderSettings& settings);
 
 /// The settings of a pilot that emits so many photons, with a seed of their own: what is chosen does not depend on the
 /// photons that the render will gather.

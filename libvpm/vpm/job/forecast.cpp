@@ -1,24 +1,22 @@
-// Estimates by what a pilot's photons and rays cost.
-#include "vpm/tune/forecast.h"
+// Estimates by what a few photons and rays take and store.
+#include "vpm/job/forecast.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "vpm/base/error.h"
-#include "vpm/base/parallel.h"
 #include "vpm/estimate/photon_map.h"
 #include "vpm/integrators/combined/combined_pass.h"
 #include "vpm/integrators/integrator.h"
+#include "vpm/integrators/photon_density.h"
 #include "vpm/integrators/photon_map/photon_blocks.h"
+#include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/integrators/photon_map/plan.h"
 #include "vpm/integrators/photon_map/volume/estimator_info.h"
-#include "vpm/tune/choice_rules.h"
-#include "vpm/tune/eye_blocks.h"
-#include "vpm/tune/pilot.h"
+#include "vpm/tune/way_pilot.h"
 
 namespace vpm {
 namespace {
@@ -28,12 +26,37 @@ constexpr uint64_t kSafePhotons = 10'000'000;  // that fit everywhere, unless ea
 constexpr double kMostIndexed = 0x1p32;        // photons of a map, or pieces of beams: their numbers have 32 bits
 constexpr double kPiecesOfBeam = 9.0;          // in the mean, at the most
 
+/// What photons leave in maps.
+struct PhotonYield {
+  double stored_per_photon = 0.0, flights_per_photon = 0.0;
+  double stored_caustics = 0.0;  // of all photons that are aimed for caustics
+
+  double stored(double photons) const { return stored_caustics + photons * stored_per_photon; }
+};
+/// By some of the photons of a pass.
+PhotonYield yield_of(const Scene& scene, const RenderSettings& settings, PassOf of) {
+  constexpr uint64_t kSome = 20'000;
+  const uint64_t emitted = settings.photons.emitted, aimed = settings.aimed_photons();
+  RenderSettings some = pilot_settings(settings, emitted > 0 ? std::min(emitted, kSome) : kSome);
+  some.caustics.emitted = std::min(aimed, kSome);
+  some.importance.importons = std::min(some.importance.importons, kSome);
+  const Estimators estimators =
+      of == PassOf::picture ? plan_estimators(scene, some, 0) : plan_surface_estimators(scene, some, 0);
+  RenderStatistics s;
+  prepare_pass(scene, some, estimators, {}, s);
+  if (s.ledger.emitted_count == 0) return {};
+  const auto traced = static_cast<double>(s.ledger.emitted_count), caught = static_cast<double>(s.aimed_photons);
+  const double stored = static_cast<double>(s.volume_photons + s.surface_photons + s.caustic_photons) - caught;
+  const double of_aimed = some.aimed_photons() > 0 ? caught / static_cast<double>(some.aimed_photons()) : 0.0;
+  return {stored / traced, static_cast<double>(s.flights) / traced, of_aimed * static_cast<double>(aimed)};
+}
+
 /// What the records of a pass take of the memory while maps are made, and how many must be numbered in one map.
 struct Room {
   double bytes, numbers;
 };
-Room room_of(const PassCost& cost, const RenderSettings& settings, double photons) {
-  const double stored = cost.stored(photons), flights = photons * cost.flights_per_photon;
+Room room_of(const PhotonYield& yield, const RenderSettings& settings, double photons) {
+  const double stored = yield.stored(photons), flights = photons * yield.flights_per_photon;
   const double recorders = settings.volume.info().planes ? 2.0 : 1.0;
   const double kept =
       settings.volume.flights > 0 ? std::min(flights, static_cast<double>(settings.volume.flights)) : flights;
@@ -90,32 +113,36 @@ RenderSettings few_photons(const RenderSettings& settings) {
   return few;
 }
 
-/// How many photons a ray gathers: the mean of rays all over the picture.
-double gathered_by_a_ray(const Scene& scene, const RenderSettings& settings, const RadianceOfRays& radiance) {
-  std::array<EyeCounters, kEyeBlocks> counters;
-  parallel_for_chunks(kEyeBlocks, 1, [&](size_t block, size_t, size_t) {
-    EyeScratch scratch;
-    RaysOfBlock rays(scene.camera, block, BlockPixels::side_by_side, counters[block], scratch);
-    rays.add(0, Rng(settings.seed, rng_stream(RngUse::pilot, 1), block));
-    radiance(rays.all());
-  });
-  GatherCounters all;
-  for (const EyeCounters& each : counters) all.merge(each.gather);
-  return static_cast<double>(all.used) / kEyeBlocks;
-}
-
 }  // namespace
 
-std::string photons_that_fit(const PassCost& cost, const RenderSettings& settings, double seconds) {
-  const double photons = photons_of_pass(settings, cost.stored_per_photon), pass = cost.seconds(photons);
-  const double of_rays = cost.eye - cost.gathered;  // whatever photons there are
-  const double share = (seconds - of_rays) / (pass - of_rays);
-  const double most = std::max(photons, static_cast<double>(settings.aimed_photons()));
-  if (share * most >= static_cast<double>(kLeastCount)) return fitting_text(photons, settings, share);
-  return "";
+ForeseenPass foresee_pass(const Scene& scene, const RenderSettings& settings, double looking, const Clock& clock) {
+  const AutomaticSettings nothing;
+  WayPilot pilot(scene, nothing, clock, {"", settings});
+  pilot.find_size(looking);
+  pilot.add_passes(1, pilot.usual());
+  const PassModel model = pilot.times();
+  ForeseenPass pass{.of_rays = model.seeing.at};
+  if (settings.integrator == Integrator::path) return {model.seconds(0.0, 1.0), model.seeing.at};
+  pass.photons = static_cast<double>(settings.photons.emitted);
+  if (settings.integrator == Integrator::photon) {
+    if (settings.photons.stored > 0)
+      pass.photons = photons_of_pass(settings, yield_of(scene, settings, PassOf::picture).stored_per_photon);
+    pass.of_rays *= static_cast<double>(block_count(settings));
+  }
+  const double tracings = settings.integrator == Integrator::photon ? tracings_of_pass(scene, settings) : 1;
+  pass.seconds = tracings * model.making(pass.photons) + pass.of_rays + model.seeing.by * pass.photons;
+  return pass;
 }
 
-std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking) {
+std::string photons_that_fit(const ForeseenPass& pass, const RenderSettings& settings, double seconds) {
+  constexpr double kFewest = 1000.0;
+  const double share = (seconds - pass.of_rays) / (pass.seconds - pass.of_rays);
+  const double most = std::max(pass.photons, static_cast<double>(settings.aimed_photons()));
+  return share * most >= kFewest ? fitting_text(pass.photons, settings, share) : "";
+}
+
+std::string radius_that_fits(const Scene& scene, RenderSettings settings, double seconds, double looking,
+                             const Clock& clock) {
   constexpr int kHalves = 6;
   const bool media = facts_of(scene).scattering_media;
   AskedGather& gather = media ? settings.volume : settings.surface;
@@ -124,8 +151,7 @@ std::string radius_that_fits(const Scene& scene, RenderSettings settings, double
   for (int i = 0; i < kHalves; ++i) {
     radius *= 0.5f;
     gather.radius = radius;
-    const PassCost cost = time_pass(scene, settings, looking / kHalves);
-    if (cost.seconds(photons_of_pass(settings, cost.stored_per_photon)) < seconds)
+    if (foresee_pass(scene, settings, looking / kHalves, clock).seconds < seconds)
       return fmt::format("integrator.{}.radius = {:.2g}", media ? "volume" : "surface", radius);
   }
   return "";
@@ -134,15 +160,11 @@ std::string radius_that_fits(const Scene& scene, RenderSettings settings, double
 std::string wide_gather_text(const Scene& scene, const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return "";
   const RenderSettings few = few_photons(settings);
-  const RaysOfPass pass = rays_of_pass(scene, few, 0);
-  const RenderStatistics& s = pass.statistics;
-  double times = static_cast<double>(settings.photons.emitted) / static_cast<double>(few.photons.emitted);
-  if (settings.integrator == Integrator::photon) {
-    const auto emitted = static_cast<double>(std::max<uint64_t>(1, s.ledger.emitted_count));
-    times = photons_of_pass(settings, static_cast<double>(std::max(s.volume_photons, s.surface_photons)) / emitted) /
-            emitted;
-  }
-  const double photons = times * gathered_by_a_ray(scene, few, pass.radiance);
+  const SmallPass pass = render_small(scene, few, 0, BlocksTaken::quarter, WallClock());
+  double all = static_cast<double>(settings.photons.emitted);
+  if (settings.integrator == Integrator::photon && settings.photons.stored > 0)
+    all = photons_of_pass(settings, yield_of(scene, few, PassOf::picture).stored_per_photon);
+  const double photons = all / std::max(1.0, pass.photons) * pass.gathered_by_ray;
   if (photons <= kMostGathered) return "";
   return fmt::format(
       "a ray from the eye gathers about {:.2g} photons of a pass: smaller radii, or fewer photons and "
@@ -155,8 +177,8 @@ double bytes_of_maps(const Scene& scene, const RenderSettings& settings, PassOf 
   if (settings.integrator == Integrator::combined)
     return static_cast<double>(settings.photons.emitted) * bytes_of_sub_path(scene, settings);
   const RenderSettings held = at_a_time(settings);
-  const PassCost cost = time_photons(scene, held, of, 0.1);
-  return room_of(cost, held, photons_of_pass(held, cost.stored_per_photon)).bytes;
+  const PhotonYield yield = yield_of(scene, held, of);
+  return room_of(yield, held, photons_of_pass(held, yield.stored_per_photon)).bytes;
 }
 
 void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of, double memory) {
@@ -166,16 +188,16 @@ void check_memory(const Scene& scene, const RenderSettings& settings, PassOf of,
   const RenderSettings held = at_a_time(settings);
   const auto asked = static_cast<double>(std::max({held.photons.emitted, held.photons.stored, held.aimed_photons()}));
   if (asked * each <= kMapBytes * static_cast<double>(kSafePhotons)) return;
-  const PassCost cost = time_photons(scene, held, of, 0.1);
-  const double photons = photons_of_pass(held, cost.stored_per_photon), stored = cost.stored(photons);
-  const Room room = room_of(cost, held, photons);
+  const PhotonYield yield = yield_of(scene, held, of);
+  const double photons = photons_of_pass(held, yield.stored_per_photon), stored = yield.stored(photons);
+  const Room room = room_of(yield, held, photons);
   const double fits = std::min(memory / room.bytes, kMostIndexed / room.numbers);
   if (fits >= 1.0) return;
-  const double flights = photons * cost.flights_per_photon;
+  const double flights = photons * yield.flights_per_photon;
   const bool by_blocks = settings.photons.block > 0;
-  const char* const key = by_blocks                             ? "integrator.photons.block"
-                          : cost.stored_caustics > 0.5 * stored ? "integrator.caustics.emitted"
-                                                                : "integrator.photons.emitted";
+  const char* const key = by_blocks                              ? "integrator.photons.block"
+                          : yield.stored_caustics > 0.5 * stored ? "integrator.caustics.emitted"
+                                                                 : "integrator.photons.emitted";
   throw InputError(fmt::format(
       "{}: the maps of a {} would hold about {:.2g} photons{} and take {:.2g} GB of memory; this machine has {:.2g} "
       "GB, where {}",

@@ -1,12 +1,9 @@
 // Settings that a render is to choose, and those that it chose.
 #pragma once
 
-#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
-
-#include "vpm/base/clock.h"
 
 namespace vpm {
 
@@ -24,20 +21,9 @@ struct AutomaticSettings {
 };
 
 /// What a setting that may be "auto" is where a scene file and its options leave it out: its default, or "auto". Where
-/// they do not name the integrator, `automatic` drops all that they say of it.
-enum class LeftOut { defaults, automatic };
-
-/// When choosing is to have ended, s on a clock; infinite where it may take any time.
-struct ChoosingTime {
-  const Clock& clock;
-  double end;
-
-  /// When the next of so many parts is to have ended.
-  double end_of_next(size_t parts) const {
-    const double now = clock.seconds();
-    return now + (end - now) / static_cast<double>(parts);
-  }
-};
+/// these do not name the integrator, but ask for a time, `automatic` also drops all that they say of it, so that ways
+/// to render are compared; `all_automatic` does so in any case.
+enum class LeftOut { defaults, automatic, all_automatic };
 
 /// A setting that was chosen.
 struct Choice {

@@ -1,0 +1,101 @@
+// Blocks are chunks of parallel work, each with random numbers of its own.
+#include "vpm/tune/small_pass.h"
+
+#include <algorithm>
+#include <array>
+
+#include "vpm/base/parallel.h"
+#include "vpm/integrators/integrator.h"
+
+namespace vpm {
+namespace {
+
+constexpr int kEdge = 8;  // pixels, of a block
+constexpr int kBlocks = static_cast<int>(kBlocksOfEdge);
+static_assert(kEdge * kEdge == kBlockRays && kBlockRays == kEyeRays);
+
+std::vector<uint32_t> numbers_of(BlocksTaken taken) {
+  const uint32_t step = taken == BlocksTaken::all ? 1 : 2;
+  std::vector<uint32_t> numbers;
+  for (uint32_t y = step - 1; y < kBlocksOfEdge; y += step)
+    for (uint32_t x = step - 1; x < kBlocksOfEdge; x += step) numbers.push_back(y * kBlocksOfEdge + x);
+  return numbers;
+}
+
+/// Where block number `part` along an edge begins that has so many pixels from `first` on: in the middle of its part.
+int begin_of(int part, int first, int pixels) {
+  return first + std::clamp((2 * part + 1) * pixels / (2 * kBlocks) - kEdge / 2, 0, std::max(0, pixels - kEdge));
+}
+
+/// Pixel number `i` of a block: squares of kBlock pixels one after another.
+glm::ivec2 pixel_of(uint32_t block, size_t i, const PixelRect& rendered) {
+  const int square = static_cast<int>(i / kBlock), within = static_cast<int>(i % kBlock);
+  const int x =
+      begin_of(static_cast<int>(block) % kBlocks, rendered.x0, rendered.width()) + square % 2 * 4 + within % 4;
+  const int y =
+      begin_of(static_cast<int>(block) / kBlocks, rendered.y0, rendered.height()) + square / 2 * 4 + within / 4;
+  return {std::min(x, rendered.x1 - 1), std::min(y, rendered.y1 - 1)};
+}
+
+/// What the rays of a block find, sample by sample of its pixels.
+void follow_block(const Scene& scene, const RenderSettings& settings, const RaysOfPass& ready, uint64_t stream,
+                  uint32_t block, std::span<KernelEstimate> found, EyeCounters& counters) {
+  EyeScratch scratch;
+  std::array<SampleMean, kBlockRays> means;
+  std::vector<Rng> rngs;
+  std::vector<EyeRay> rays;
+  for (int sample = 0; sample < settings.samples_per_pixel; ++sample) {
+    rays.clear();
+    rngs.clear();
+    rngs.reserve(kBlockRays);
+    for (size_t i = 0; i < kBlockRays; ++i) {
+      const glm::ivec2 pixel = pixel_of(block, i, scene.camera.rendered());
+      const uint64_t number = (uint64_t{block} * kBlockRays + i) * settings.samples_per_pixel + sample;
+      Rng& rng = rngs.emplace_back(settings.seed, stream, number);
+      const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(scene.camera.filter, rng.uniform2());
+      rays.push_back({scene.camera.ray(film),
+                      {rng, counters, scratch, static_cast<size_t>(pixel.y) * scene.camera.width + pixel.x}});
+    }
+    ready.radiance(rays);
+    for (size_t i = 0; i < kBlockRays; ++i) means[i].add(rays[i].radiance, counters);
+  }
+  for (size_t i = 0; i < kBlockRays; ++i) {
+    found[i] = means[i].mean();
+    if (!ready.light_tracing.pixels.empty()) found[i].value += ready.light_tracing.pixels[rays[i].work.pixel];
+  }
+}
+
+}  // namespace
+
+SmallPass render_small(const Scene& scene, const RenderSettings& settings, int pass, BlocksTaken taken,
+                       const Clock& clock) {
+  SmallPass small{.blocks = numbers_of(taken)};
+  const double begin = clock.seconds();
+  const RaysOfPass ready = rays_of_pass(scene, settings, pass);
+  const RenderStatistics& s = ready.statistics;
+  const double made = clock.seconds();
+  if (settings.aimed_photons() > 0) small.aiming = s.caustic_seconds / static_cast<double>(settings.aimed_photons());
+  small.making = std::max(0.0, made - begin - s.caustic_seconds);
+  small.photons = static_cast<double>(s.ledger.emitted_count);
+  small.photon_steps = s.ledger.walk.rays + s.ledger.walk.lookups;
+  small.bytes = static_cast<double>(s.photon_map_bytes);
+  const size_t blocks = small.blocks.size();
+  small.found.resize(blocks * kBlockRays);
+  std::vector<EyeCounters> counters(blocks);
+  parallel_for_chunks(blocks, 1, [&](size_t i, size_t, size_t) {
+    follow_block(scene, settings, ready, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), small.blocks[i],
+                 std::span(small.found).subspan(i * kBlockRays, kBlockRays), counters[i]);
+  });
+  const double end = clock.seconds();
+  const PixelRect rendered = scene.camera.rendered();
+  const double pixels_of_each = double(rendered.width()) * rendered.height() / static_cast<double>(small.found.size());
+  small.seeing = pixels_of_each * (end - made);
+  small.taken = end - begin;
+  EyeCounters all;
+  for (const EyeCounters& each : counters) all.merge(each);
+  small.eye_steps = pixels_of_each * static_cast<double>(all.walk.rays + all.walk.lookups);
+  small.gathered_by_ray = static_cast<double>(all.gather.used) / static_cast<double>(all.rays);
+  return small;
+}
+
+}  // namespace vpm

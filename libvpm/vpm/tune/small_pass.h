@@ -1,0 +1,39 @@
+// Passes of a pilot: all of a pass's photons, of which rays of some blocks of pixels all over the picture are followed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vpm/base/clock.h"
+#include "vpm/integrators/settings.h"
+#include "vpm/photon/kernel.h"
+#include "vpm/scene/scene.h"
+
+namespace vpm {
+
+/// A block is a square of 8 x 8 pixels, whose rays are followed together as those of a picture are; 8 x 8 of them lie
+/// evenly in what is rendered of the picture. In small pictures some share pixels.
+inline constexpr size_t kBlocksOfEdge = 8, kAllBlocks = kBlocksOfEdge * kBlocksOfEdge, kBlockRays = 64;
+/// Which of them: all, or every second one along each edge.
+enum class BlocksTaken { all, quarter };
+
+struct SmallPass {
+  double photons = 0.0;            // that were emitted
+  double making = 0.0;             // s: what tracing and sorting these took
+  double aiming = 0.0;             // s: what each took that is aimed for caustics
+  double seeing = 0.0;             // s: what rays through all pixels would take, by those that were followed
+  double taken = 0.0;              // s, in all
+  double bytes = 0.0;              // of the photons
+  uint64_t photon_steps = 0;       // rays and look-ups of the photons
+  double eye_steps = 0.0;          // the same of rays through all pixels
+  double gathered_by_ray = 0.0;    // photons
+  std::vector<uint32_t> blocks{};  // numbers of those taken, in rising order
+  // W/(m^2 sr), with its correction: the mean of a pixel's samples; kBlockRays of each block, black where not finite.
+  std::vector<KernelEstimate> found{};
+};
+
+/// Makes pass number `pass` of the settings ready, and follows rays of blocks. Times are those of the clock.
+SmallPass render_small(const Scene& scene, const RenderSettings& settings, int pass, BlocksTaken taken,
+                       const Clock& clock);
+
+}  // namespace vpm

@@ -1,0 +1,72 @@
+// What passes take and leave, by lines through what is measured: exact.
+#include "vpm/tune/pass_model.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace vpm {
+namespace {
+
+TEST(PassModel, ALineGoesThroughValuesOfALine) {
+  const Line line = rising_line(std::vector<Measured>{{1.0, 5.0, 1.0}, {3.0, 11.0, 2.0}, {8.0, 26.0, 1.0}});
+  EXPECT_NEAR(line.at, 2.0, 1e-9);
+  EXPECT_NEAR(line.by, 3.0, 1e-9);
+  EXPECT_NEAR(line(2.0), 8.0, 1e-9);
+}
+
+TEST(PassModel, ALineNeitherFallsNorBeginsBelowZero) {
+  const Line level = rising_line(std::vector<Measured>{{1.0, 2.0, 1.0}, {2.0, 1.0, 1.0}});
+  EXPECT_EQ(level.by, 0.0);
+  EXPECT_NEAR(level.at, 1.2, 1e-12);  // of relative squares: (1/2 + 1/1) / (1/4 + 1/1)
+  const Line from_zero = rising_line(std::vector<Measured>{{1.0, 1.0, 1.0}, {2.0, 4.0, 1.0}});
+  EXPECT_EQ(from_zero.at, 0.0);
+  EXPECT_NEAR(from_zero.by, 1.2, 1e-12);  // (1/1 + 2/4) / (1/1 + 4/16)
+}
+
+TEST(PassModel, ValuesOfZeroSayNothing) {
+  EXPECT_EQ(rising_line({}).at, 0.0);
+  EXPECT_EQ(rising_line(std::vector<Measured>{{1.0, 0.0, 1.0}}).by, 0.0);
+  const Line one = rising_line(std::vector<Measured>{{1.0, 0.0, 1.0}, {5.0, 3.0, 1.0}});
+  EXPECT_DOUBLE_EQ(one.at, 3.0);
+  EXPECT_EQ(one.by, 0.0);
+}
+
+/// What goes with photons goes with the area that they are gathered in.
+TEST(PassModel, WiderRadiiTakeLonger) {
+  PassModel model;
+  model.making = {0.5, 1e-6};
+  model.seeing = {0.25, 2e-6};
+  EXPECT_DOUBLE_EQ(model.seconds(1e5, 1.0), 0.5 + 0.1 + 0.25 + 0.2);
+  EXPECT_DOUBLE_EQ(model.seconds(1e5, 2.0), 0.5 + 0.1 + 0.25 + 0.8);
+}
+
+/// The noise of rays falls with passes; radii that shrink let the bias fall, and hold up the noise of photons: by the
+/// factors 1, 5/6 and 5/6 * 8/9 of the areas of discs in the first three passes.
+TEST(PassModel, ErrorsFallAsRadiiShrink) {
+  RenderSettings settings;
+  settings.radii = RadiusSchedule::constant;
+  PassModel model;
+  model.noise = {4e-3, 2.0};
+  model.bias2 = 1e-3;
+  model.power_of_noise = 2.0;
+  EXPECT_DOUBLE_EQ(model.error(8, 1000.0, 1.0, settings), 6e-3 / 8 + 1e-3);
+  EXPECT_DOUBLE_EQ(model.error(8, 1000.0, 2.0, settings), 4.5e-3 / 8 + 1e-3 * std::pow(2.0, kPowerOfBias));
+  settings.radii = RadiusSchedule::per_pass;
+  const double second = 5.0 / 6.0, third = second * 8.0 / 9.0;
+  model.bias2 = 0.0;
+  EXPECT_NEAR(model.error(3, 1000.0, 1.0, settings), (4e-3 + 2e-3 / 3 * (1.0 + 1.0 / second + 1.0 / third)) / 3, 1e-9);
+  model = {};
+  model.bias2 = 9e-3;
+  const double bias = 1.0 + std::pow(second, 0.25 * kPowerOfBias) + std::pow(third, 0.25 * kPowerOfBias);
+  EXPECT_NEAR(model.error(3, 1000.0, 1.0, settings), 1e-3 * bias * bias, 1e-9);
+}
+
+TEST(PassModel, LightThatRaysHaveNotMetIsNoise) {
+  PassModel model;
+  model.unseen = 0.08;
+  EXPECT_DOUBLE_EQ(model.error(4, 0.0, 1.0, {}), 0.02);
+}
+
+}  // namespace
+}  // namespace vpm

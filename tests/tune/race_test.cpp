@@ -1,0 +1,116 @@
+// Which way to render a race ends with.
+#include "vpm/tune/race.h"
+
+#include <gtest/gtest.h>
+
+#include "support/simulated_clock.h"
+#include "tune/pilot_scenes.h"
+#include "tune/ticking_clock.h"
+#include "vpm/integrators/default_radii.h"
+
+namespace vpm {
+namespace {
+
+const AutomaticSettings kAll{{"integrator.type", "integrator.photons.emitted", "integrator.techniques",
+                              "integrator.volume.radius", "integrator.surface.radius"}};
+
+/// In a race of a hundred ticks, of which a pass takes three.
+Winner winner_in(const Scene& scene) {
+  RenderSettings settings;
+  settings.until.seconds = 100.0;
+  return race(scene, kAll, open_ways(scene, kAll, settings).ways, TickingClock(1.0));
+}
+
+/// A grey floor under an even sky: shadow rays find all light at once, and photons little.
+TEST(Race, PhotonMapsDoNotWinUnderAnEvenSky) {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
+            Lambertian{Rgb(0.5f)});
+  scene.lights.push_back(ConstantEnvironment{Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 3.0f, 0.0f), Vec3(0.0f), Vec3(0.0f, 0.0f, -1.0f), 40.0f, {64, 64});
+  scene.geometry.commit();
+  finish(scene);
+  const Winner winner = winner_in(scene);
+  EXPECT_NE(winner.settings.integrator, Integrator::photon) << winner.reason;
+}
+
+/// What lights the floor came through a ball of glass, which shadow rays do not pass: paths are black, and do not pass
+/// for quiet ones.
+TEST(Race, PathsDoNotWinWhereTheyDoNotFindTheLight) {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
+            Lambertian{Rgb(0.5f)});
+  add_shape(scene, SphereShape{Vec3(0.0f, 1.0f, 0.0f), 0.5f}, Dielectric{1.5f});
+  scene.lights.push_back(PointLight{Vec3(0.0f, 1.0f, 0.0f), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 0.4f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 40.0f, {64, 64});
+  scene.geometry.commit();
+  finish(scene);
+  const Winner winner = winner_in(scene);
+  EXPECT_NE(winner.settings.integrator, Integrator::path) << winner.reason;
+  EXPECT_EQ(winner.choices.at(0).key, "integrator.photons.emitted");
+}
+
+/// In thin air few photons collide, but all fly.
+TEST(Race, BeamsWinWhereFewPhotonsCollide) {
+  const Scene scene = lit_evenly(0.01f);
+  RenderSettings settings;
+  settings.until.seconds = 100.0;
+  const AutomaticSettings gather{{"integrator.volume.type", "integrator.volume.radius"}};
+  const OpenWays open = open_ways(scene, gather, settings);
+  ASSERT_EQ(open.ways.size(), 2u);
+  EXPECT_EQ(open.ways[0].name, "photon-map by beam");
+  const Winner winner = race(scene, gather, open.ways, TickingClock(1.0));
+  EXPECT_EQ(winner.settings.volume.type(), "photon-beams") << winner.reason;
+  EXPECT_NE(winner.reason.find("behind it photon-map by beam"), std::string::npos) << winner.reason;
+}
+
+/// By a clock of ticks nothing depends on the machine, nor on the number of threads.
+TEST(Race, TheSameTimesGiveTheSameWinner) {
+  const Scene scene = cloud_over_floor(true);
+  const Winner one = winner_in(scene), again = winner_in(scene);
+  EXPECT_EQ(one.settings.integrator, again.settings.integrator);
+  ASSERT_EQ(one.choices.size(), again.choices.size());
+  for (size_t i = 0; i < one.choices.size(); ++i) EXPECT_EQ(one.choices[i].value, again.choices[i].value);
+}
+
+TEST(Race, TheFirstOfAllIsTakenWhereTheTimeAllowsNoPass) {
+  const Scene scene = cloud_over_floor(true);
+  RenderSettings settings;
+  settings.until.seconds = 1.0;
+  const Winner winner = race(scene, kAll, open_ways(scene, kAll, settings).ways, HastyClock());
+  EXPECT_EQ(winner.reason.substr(0, 22), "the first of all; not ") << winner.reason;
+  EXPECT_EQ(winner.settings.integrator, Integrator::photon);
+  RenderSettings usual;
+  usual.volume.choose("beam");
+  choose_default_radii(scene, kAll, usual);
+  EXPECT_EQ(winner.settings.volume.radius, usual.volume.radius);
+}
+
+TEST(Race, WaysThatTheSettingsRefuseAreNotOpen) {
+  RenderSettings of_pixels;
+  of_pixels.radii = RadiusSchedule::per_pixel;  // of photon maps alone
+  const OpenWays open = open_ways(cloud_over_floor(true), kAll, of_pixels);
+  EXPECT_EQ(open.ways.size(), 3u);
+  EXPECT_NE(open.refused.find("; not combined"), std::string::npos) << open.refused;
+  RenderSettings merged;
+  merged.photons.in_cube = 10;
+  const AutomaticSettings gather{{"integrator.volume.type"}};
+  const OpenWays maps = open_ways(lit_evenly(0.01f), gather, merged);
+  ASSERT_EQ(maps.ways.size(), 1u);
+  EXPECT_EQ(maps.ways[0].name, "photon-map by beam");
+}
+
+/// A gather that is given stays, and so does that of a scene without media.
+TEST(Race, WhatIsGivenIsTheOnlyWay) {
+  RenderSettings settings;
+  settings.volume.choose("nearest");
+  EXPECT_EQ(open_ways(lit_evenly(0.01f), {{"integrator.volume.radius"}}, settings).ways.size(), 1u);
+  EXPECT_EQ(open_ways(lit_evenly(0.0f), {{"integrator.volume.type"}}, {}).ways.size(), 1u);
+  RenderSettings ball_by_ball;
+  ball_by_ball.volume.boundary = BoundaryRule::corrected;
+  EXPECT_EQ(open_ways(lit_evenly(0.01f), {{"integrator.volume.type"}}, ball_by_ball).ways.at(0).settings.volume.type(),
+            "radius");
+}
+
+}  // namespace
+}  // namespace vpm

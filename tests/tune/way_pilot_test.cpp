@@ -1,0 +1,134 @@
+// The pilot of a way to render: what its small passes say of whole ones.
+#include "vpm/tune/way_pilot.h"
+
+#include <gtest/gtest.h>
+
+#include "tune/pilot_scenes.h"
+#include "tune/ticking_clock.h"
+#include "vpm/integrators/words.h"
+#include "vpm/render/render.h"
+
+namespace vpm {
+namespace {
+
+const AutomaticSettings kNothing;
+const TickingClock kClock(1e-3);
+
+WayPilot pilot_of(const Scene& scene, const RenderSettings& settings, int passes) {
+  WayPilot pilot(scene, kNothing, kClock, {"", settings});
+  pilot.find_size(1.0);
+  pilot.add_passes(passes, pilot.usual());
+  return pilot;
+}
+
+/// A pilot's noise is that of passes, as the film has it, both of no scale. The lamp has a size, as the variance of
+/// paths has no bound beside a point of light.
+class TheNoiseOfAPass : public testing::TestWithParam<Integrator> {};
+TEST_P(TheNoiseOfAPass, IsThatOfTheFilm) {
+  const QuadLight lamp{Vec3(-0.2f, 0.9f, -0.2f), Vec3(0.4f, 0.0f, 0.0f), Vec3(0.0f, 0.0f, 0.4f)};
+  const RenderJob job = make_job(foggy_room(0.5f, lamp));
+  RenderSettings settings;
+  settings.integrator = GetParam();
+  settings.photons.sequence = PhotonSequence::random;  // noise as one over photons is what pilots take for granted
+  settings.volume.choose("beam");
+  settings.volume.radius = 0.1f;
+  settings.surface.radius = 0.2f;
+  settings.photons.emitted = 4'000;
+  settings.radii = RadiusSchedule::constant;
+  settings.until.passes = GetParam() == Integrator::path ? 64 : 16;
+  const Film film = render(job.scene, settings, nothing_rendered(job.scene.camera)).film;
+  double variance = 0.0;  // of a pass, the mean of pixels and channels
+  for (const Rgb& pixel : film.variance_of_mean().pixels)
+    variance += settings.until.passes * double{mean_channel(pixel)} / (128.0 * 128.0);
+  const PassModel model = pilot_of(job.scene, settings, 12).model(Scales(kAllBlocks * kBlockRays / kBlock, Rgbd(1.0)));
+  const double noise = model.error(1, 4'000, 1.0, settings) - model.bias2;
+  EXPECT_NEAR(noise / variance, 1.0, 0.4);
+  EXPECT_LT(model.bias2, noise);
+}
+INSTANTIATE_TEST_SUITE_P(Pilot, TheNoiseOfAPass,
+                         testing::Values(Integrator::photon, Integrator::path, Integrator::combined),
+                         [](const auto& of) {
+                           std::string name = word_of(of.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+/// What light tracing brings to pixels is part of what a pilot sees there: it alone shows what connections show.
+TEST(Pilot, SeesWhatLightTracingFinds) {
+  const Scene scene = cloud_over_floor(false);
+  const auto mean_seen_by = [&](Technique technique) {
+    RenderSettings settings;
+    settings.integrator = Integrator::combined;
+    settings.volume.radius = settings.surface.radius = 0.1f;
+    settings.photons.emitted = 50'000;
+    for (const TechniqueInfo& info : kTechniques)
+      settings.combined.techniques.set(info.technique, info.technique == technique);
+    double sum = 0.0;
+    for (const Rgbd& light : pilot_of(scene, settings, 4).surely_shown())
+      if (!std::isnan(light.r)) sum += light.g;
+    return sum;
+  };
+  EXPECT_NEAR(mean_seen_by(Technique::light_tracing) / mean_seen_by(Technique::connections), 1.0, 0.05);
+}
+
+/// A floor that is lit through a ball of glass, which shadow rays do not pass: paths are black.
+TEST(Pilot, PathsMissWhatPhotonsShow) {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
+            Lambertian{Rgb(0.5f)});
+  add_shape(scene, SphereShape{Vec3(0.0f, 1.0f, 0.0f), 0.5f}, Dielectric{1.5f});
+  scene.lights.push_back(PointLight{Vec3(0.0f, 1.0f, 0.0f), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 0.4f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 40.0f, {64, 64});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings photons;
+  photons.surface.radius = 0.1f;
+  RenderSettings paths;
+  paths.integrator = Integrator::path;
+  const WayPilot maps = pilot_of(scene, photons, 4), blind = pilot_of(scene, paths, 4);
+  const Unseen unseen = blind.unseen_beside(maps);
+  EXPECT_GT(unseen.in_blocks, 0.1);
+  EXPECT_GT(unseen.in_all, 0.1);
+  EXPECT_EQ(maps.unseen_beside(blind).in_blocks, 0.0);
+  EXPECT_EQ(maps.unseen_beside(blind).in_all, 0.0);
+}
+
+/// Each sees all of an evenly lit floor.
+TEST(Pilot, NothingIsMissingWhereBothSeeTheSame) {
+  const AssembledScene room = foggy_room(0.5f);
+  RenderSettings photons, paths;
+  photons.volume.choose("beam");
+  photons.volume.radius = photons.surface.radius = 0.05f;
+  paths.integrator = Integrator::path;
+  const WayPilot maps = pilot_of(room.scene, photons, 6), traced = pilot_of(room.scene, paths, 6);
+  EXPECT_EQ(traced.unseen_beside(maps).in_blocks, 0.0);
+  EXPECT_EQ(traced.unseen_beside(maps).in_all, 0.0);
+}
+
+/// Photons that take as long as rays do, by the clock, whose passes and rays take one tick each.
+TEST(Pilot, PhotonsTakeAsLongAsRaysDo) {
+  const AssembledScene room = foggy_room(0.5f);
+  const AutomaticSettings automatic{{"integrator.photons.emitted"}};
+  WayPilot pilot(room.scene, automatic, kClock, {"", {}});
+  pilot.find_size(1e-9);
+  // 1000 photons in a tick, and 16 blocks of 64 rays, of which the picture has 128 x 128.
+  EXPECT_EQ(pilot.way().settings.photons.emitted, 16'000u);
+  EXPECT_TRUE(pilot.chooses_photons());
+}
+
+TEST(Pilot, RadiiAreScaledUpToATwentiethOfTheScene) {
+  const AssembledScene room = foggy_room(0.5f);
+  const AutomaticSettings automatic{{"integrator.volume.radius", "integrator.surface.radius"}};
+  WayPilot pilot(room.scene, automatic, kClock, {"", {}});
+  pilot.find_size(1.0);
+  ASSERT_EQ(pilot.radii().size(), 2u);
+  RenderSettings settings = pilot.way().settings;
+  const float before = settings.surface.radius.metres();
+  pilot.scale_radii(0.5, settings);
+  EXPECT_NEAR(settings.surface.radius.metres(), 0.5f * before, 5e-3f * before);
+  pilot.scale_radii(1000.0, settings);
+  EXPECT_NEAR(settings.surface.radius.metres(), 0.05 * room.scene.bounds.diagonal(), 1e-3);
+}
+
+}  // namespace
+}  // namespace vpm
