@@ -27,7 +27,7 @@ result = first.resume(passes=9)
 result.write("all.exr")
 np.save(f"radiance{rank}", result.radiance)
 np.save(f"variance{rank}", result.variance)
-chosen = vpm.render({**BALL, "photons": {"emitted": "auto"}}, passes=2, together=True)
+chosen = vpm.render(BALL, overrides={"integrator.photons.emitted": "auto"}, passes=2, together=True)
 np.save(f"chosen{rank}", chosen.radiance)
 """
 
@@ -47,7 +47,7 @@ def test_all_ranks_have_the_result_of_one_process(tmp_path):
     done = run(3, SCRIPT, tmp_path)
     assert done.returncode == 0, done.stderr
     alone = vpm.render(BALL, passes=9, seed=3)
-    chosen = vpm.render({**BALL, "photons": {"emitted": "auto"}}, passes=2)
+    chosen = vpm.render(BALL, overrides={"integrator.photons.emitted": "auto"}, passes=2)
     for rank in range(3):
         assert np.array_equal(np.load(tmp_path / f"radiance{rank}.npy"), alone.radiance)
         assert np.array_equal(np.load(tmp_path / f"variance{rank}.npy"), alone.variance)

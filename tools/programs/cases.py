@@ -168,7 +168,7 @@ def add_settings(cases):
     for scene, sets in itertools.product(("cornell", "glass_caustic"), gathers):
         cases.add("settings", scene, f".indirect.type=final-gather .surface.radius=0.2 {sets}")
     for scene in ("fog_room", "smoke", "cornell"):
-        for sets in (".volume.radius=auto", ".surface.radius=auto", ".distance.type=auto"):
+        for sets in (".volume.radius=auto", ".surface.radius=auto"):
             cases.add("settings", scene, sets)
         for options in (["--seed", "5"], ["--auto"]):
             cases.add("settings", scene, options=options)
