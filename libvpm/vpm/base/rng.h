@@ -54,7 +54,7 @@ class Rng {
   /// Uniform in [0, 1), a multiple of 2^-24.
   float uniform() { return static_cast<float>(bits() >> 40) * 0x1p-24f; }
   /// Uniform in [0, 1), a multiple of 2^-53: for free flights, whose tails need more than 24 bits.
-  double uniform_double() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  [[gnu::always_inline]] double uniform_double() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   /// Exponential of mean 1. 1 - u is exact, so that its logarithm is -log1p(-u), at half the cost.
   double exponential() { return -std::log(1.0 - uniform_double()); }
   /// Two uniform numbers in [0, 1).

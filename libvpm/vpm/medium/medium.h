@@ -24,7 +24,7 @@ class DensityAlong {
     if (grid) ray_ = grid->lattice_ray(ray);
   }
   /// The density at the distance t, m.
-  float at(double t) const { return grid_ ? grid_->density(ray_, t) : 1.0f; }
+  [[gnu::always_inline]] float at(double t) const { return grid_ ? grid_->density(ray_, t) : 1.0f; }
   /// The densities at up to kAtOnce distances: t, t + step, ... (m). This is quicker than one by one.
   void at(double t, double step, std::span<float> densities) const {
     if (grid_)

@@ -21,7 +21,7 @@ constexpr double kPilotShare = 0.2, kMostShare = 0.5;  // of the seconds of a re
 constexpr double kSizeShare = 0.4;                     // of these, to find the size of passes
 constexpr double kAloneShare = 0.1;                    // likewise, where one way is left
 constexpr double kNothingShown = 0.5;                  // an error of which a pilot says nothing
-constexpr int kPassesOfRound = 2;
+constexpr int kPassesOfRound = 2, kMostRounds = 30;
 
 struct Runner {
   WayPilot pilot;
@@ -228,10 +228,11 @@ Winner race(const Scene& scene, const AutomaticSettings& automatic, const std::v
     return winner;
   }
   std::string behind;
-  do {
+  for (int round = 0; round < kMostRounds; ++round) {
     const Scales scales = compare(begin + seconds - clock.seconds(), runners);
     behind = drop_behind(scales, runners) + behind;
-  } while (go_on(begin + (runners.size() > 1 ? kPilotShare : kAloneShare) * seconds, clock, runners));
+    if (!go_on(begin + (runners.size() > 1 ? kPilotShare : kAloneShare) * seconds, clock, runners)) break;
+  }
   for (size_t i = runners.size(); i-- > 1;) behind = ", " + runners[i].name() + behind;
   const bool nothing_shown = runners.front().error > kNothingShown;
   if (nothing_shown) {
