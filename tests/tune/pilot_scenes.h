@@ -36,6 +36,19 @@ inline Scene lit_evenly(float sigma_t) {
   return scene;
 }
 
+/// A floor that is lit through a ball of glass, which shadow rays do not pass: paths are black.
+inline Scene lamp_in_glass() {
+  Scene scene;
+  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
+            Lambertian{Rgb(0.5f)});
+  add_shape(scene, SphereShape{Vec3(0.0f, 1.0f, 0.0f), 0.5f}, Dielectric{1.5f});
+  scene.lights.push_back(PointLight{Vec3(0.0f, 1.0f, 0.0f), Rgb(1.0f)});
+  scene.camera = make_camera(Vec3(0.0f, 0.4f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 40.0f, {64, 64});
+  scene.geometry.commit();
+  finish(scene);
+  return scene;
+}
+
 /// A closed room full of fog with a lamp, as in scenes/fog_room.toml, seen from within.
 inline AssembledScene foggy_room(float sigma_t, const Light& light = PointLight{Vec3(0.0f, 0.9f, 0.0f), Rgb(1.0f)}) {
   AssembledScene parts;

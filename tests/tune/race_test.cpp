@@ -34,17 +34,9 @@ TEST(Race, PhotonMapsDoNotWinUnderAnEvenSky) {
   EXPECT_NE(winner.settings.integrator, Integrator::photon) << winner.reason;
 }
 
-/// What lights the floor came through a ball of glass, which shadow rays do not pass: paths are black, and do not pass
-/// for quiet ones.
+/// Black paths do not pass for quiet ones.
 TEST(Race, PathsDoNotWinWhereTheyDoNotFindTheLight) {
-  Scene scene;
-  add_shape(scene, quad_mesh(Vec3d(-1.0, 0.0, 1.0), Vec3d(2.0, 0.0, 0.0), Vec3d(0.0, 0.0, -2.0)),
-            Lambertian{Rgb(0.5f)});
-  add_shape(scene, SphereShape{Vec3(0.0f, 1.0f, 0.0f), 0.5f}, Dielectric{1.5f});
-  scene.lights.push_back(PointLight{Vec3(0.0f, 1.0f, 0.0f), Rgb(1.0f)});
-  scene.camera = make_camera(Vec3(0.0f, 0.4f, 3.0f), Vec3(0.0f), Vec3(0.0f, 1.0f, 0.0f), 40.0f, {64, 64});
-  scene.geometry.commit();
-  finish(scene);
+  const Scene scene = lamp_in_glass();
   const Winner winner = winner_in(scene);
   EXPECT_NE(winner.settings.integrator, Integrator::path) << winner.reason;
   EXPECT_EQ(winner.choices.at(0).key, "integrator.photons.emitted");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <optional>
 
 #include "vpm/base/counters.h"
 #include "vpm/base/error.h"
@@ -18,16 +19,21 @@ namespace {
 constexpr const char* kIntegratorKey = "integrator.type";
 constexpr const char* kPhotonsKey = "integrator.photons.emitted";
 
-/// As many photons as have as many rays and look-ups as those from the eye. 0 where there are none.
-uint64_t photons_by_counts(const Scene& scene, RenderSettings settings) {
-  constexpr double kPilot = 20'000.0, kFewest = 1000.0, kMost = 4e6;  // photons
+/// As many photons as have as many rays and look-ups as those from the eye; nothing where there are none.
+std::optional<Choice> photons_by_counts(const Scene& scene, RenderSettings settings) {
+  constexpr double kPilot = 20'000.0, kFewest = 1000.0;  // photons
   settings.seed = ~settings.seed;
   settings.photons.emitted = static_cast<uint64_t>(kPilot);
   settings.caustics.emitted = std::min(settings.caustics.emitted, settings.photons.emitted);
   const SmallPass pass = render_small(scene, settings, 0, BlocksTaken::all, WallClock());
-  if (pass.photon_steps == 0) return 0;
+  if (pass.photon_steps == 0) return std::nullopt;
   const double balanced = pass.eye_steps / static_cast<double>(pass.photon_steps) * pass.photons;
-  return static_cast<uint64_t>(rounded(std::clamp(balanced, kFewest, kMost), 2));
+  const double most = std::max(kFewest, pass.most_photons());
+  std::string reason = "as many rays and look-ups as from the eye";
+  if (balanced < kFewest) reason = "the least; fewer have " + reason;
+  if (balanced > most) reason = "maps of 1.3 GB, the most; more have " + reason;
+  const auto photons = static_cast<uint64_t>(rounded(std::clamp(balanced, kFewest, most), 2));
+  return Choice{kPhotonsKey, fmt::format("{}", photons), reason};
 }
 
 std::vector<Choice> choose_by_counts(const Scene& scene, const AutomaticSettings& automatic, RenderSettings& settings) {
@@ -35,9 +41,9 @@ std::vector<Choice> choose_by_counts(const Scene& scene, const AutomaticSettings
   if (automatic.has(kIntegratorKey))
     choices.push_back({kIntegratorKey, word_of(settings.integrator), "the first, as no time is asked for to compare"});
   if (automatic.has(kPhotonsKey) && settings.integrator != Integrator::path && kCounts) {
-    if (const uint64_t photons = photons_by_counts(scene, settings); photons > 0) {
-      settings.photons.emitted = photons;
-      choices.push_back({kPhotonsKey, fmt::format("{}", photons), "as many rays and look-ups as from the eye"});
+    if (const std::optional<Choice> photons = photons_by_counts(scene, settings)) {
+      set_chosen(settings, photons->key, photons->value);
+      choices.push_back(*photons);
     }
   }
   for (Choice& choice : choose_default_radii(scene, automatic, settings)) choices.push_back(std::move(choice));

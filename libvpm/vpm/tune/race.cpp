@@ -95,7 +95,7 @@ Scales compare(double seconds, std::vector<Runner>& runners) {
     // Kernels take light away from edges. Where there are none, a ray that meets such light is rarer than one in all
     // that went there, and so its square is at least their number times that of the mean.
     if (runner.model.power_of_noise == 0.0)
-      runner.model.unseen = runner.pilot.rays() * std::max(unseen.in_blocks / double{kAllBlocks}, unseen.in_all);
+      runner.model.unseen = runner.pilot.rays() * std::max(unseen.in_blocks / runner.pilot.blocks(), unseen.in_all);
     else
       runner.model.bias2 = std::max({runner.model.bias2, unseen.in_blocks, unseen.in_all});
     runner.doubt = runner.pilot.doubt(scales);
@@ -147,8 +147,8 @@ Winner with_numbers(const Runner& best) {
   for (Choice choice : best.pilot.radii()) {
     const std::string value = text_of(find_setting(winner.settings, choice.key)->get());
     if (value != choice.value)
-      choice.reason = fmt::format("{}: {}; then times {:.2g}, by the noise and the bias of pilot passes", choice.value,
-                                  choice.reason, best.best.radii);
+      choice.reason = fmt::format("{}: {}; then times {:.2g}, up to a twentieth of the scene, by pilot passes",
+                                  choice.value, choice.reason, best.best.radii);
     choice.value = value;
     winner.choices.push_back(choice);
   }

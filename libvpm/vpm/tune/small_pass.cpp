@@ -67,6 +67,11 @@ void follow_block(const Scene& scene, const RenderSettings& settings, const Rays
 
 }  // namespace
 
+double SmallPass::most_photons() const {
+  constexpr double kMostBytes = 1.3e9;
+  return kMostBytes / std::max(1.0, bytes / std::max(1.0, photons));
+}
+
 SmallPass render_small(const Scene& scene, const RenderSettings& settings, int pass, BlocksTaken taken,
                        const Clock& clock) {
   SmallPass small{.blocks = numbers_of(taken)};

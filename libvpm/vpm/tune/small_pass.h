@@ -28,6 +28,8 @@ struct SmallPass {
   double eye_steps = 0.0;          // the same of rays through all pixels
   double gathered_by_ray = 0.0;    // photons
   std::vector<uint32_t> blocks{};  // numbers of those taken, in rising order
+  /// As many photons as fill maps of 1.3 GB.
+  double most_photons() const;
   // W/(m^2 sr), with its correction: the mean of a pixel's samples; kBlockRays of each block, black where not finite.
   std::vector<KernelEstimate> found{};
 };

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kFewest = 1000.0, kMore = 4.0;  // photons; as the number grows from pass to pass at first
 constexpr double kMostMore = 8.0;                // as it grows later
-constexpr double kMostBytes = 1.3e9;             // of maps
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kSquares = kBlockRays / kBlock;
 
@@ -135,7 +134,7 @@ void WayPilot::find_size(double seconds) {
   if (kMore * of_rays * kPassesToCome < kShare * seconds) taken_ = BlocksTaken::all;
   if (!chooses_photons() || last.photons == 0.0) return;
   photons_ = last.photons;
-  most_photons_ = std::max(kFewest, kMostBytes / std::max(1.0, last.bytes / last.photons));
+  most_photons_ = std::max(kFewest, last.most_photons());
   const double each = last.making / last.photons;
   settings.photons.emitted =
       static_cast<uint64_t>(rounded(std::clamp(last.seeing / each, kFewest, std::max(kFewest, most_photons_)), 2));
@@ -279,6 +278,8 @@ std::vector<double> WayPilot::noise_of_blocks(const Scales& scales) const {
   for (size_t i = 0; i < taken.size(); ++i) all[passes.front().blocks[i]] = taken[i];
   return all;
 }
+
+double WayPilot::blocks() const { return static_cast<double>(passes_.front().made.front().blocks.size()); }
 
 double WayPilot::rays() const {
   double rays = 0.0;

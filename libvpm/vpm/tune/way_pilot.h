@@ -52,8 +52,9 @@ class WayPilot {
   /// The noise of the passes with most photons in each of all blocks; NaN likewise.
   std::vector<double> noise_of_blocks(const Scales& scales) const;
   Unseen unseen_beside(const WayPilot& other) const;
-  /// How many were followed.
+  /// How many were followed, in all passes, and through how many blocks.
   double rays() const;
+  double blocks() const;
 
   /// Its settings are those that passes began with.
   const Way& way() const { return way_; }
