@@ -3,34 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 namespace vpm {
 namespace {
-
-TEST(PassModel, ALineGoesThroughValuesOfALine) {
-  const Line line = rising_line(std::vector<Measured>{{1.0, 5.0, 1.0}, {3.0, 11.0, 2.0}, {8.0, 26.0, 1.0}});
-  EXPECT_NEAR(line.at, 2.0, 1e-9);
-  EXPECT_NEAR(line.by, 3.0, 1e-9);
-  EXPECT_NEAR(line(2.0), 8.0, 1e-9);
-}
-
-TEST(PassModel, ALineNeitherFallsNorBeginsBelowZero) {
-  const Line level = rising_line(std::vector<Measured>{{1.0, 2.0, 1.0}, {2.0, 1.0, 1.0}});
-  EXPECT_EQ(level.by, 0.0);
-  EXPECT_NEAR(level.at, 1.2, 1e-12);  // of relative squares: (1/2 + 1/1) / (1/4 + 1/1)
-  const Line from_zero = rising_line(std::vector<Measured>{{1.0, 1.0, 1.0}, {2.0, 4.0, 1.0}});
-  EXPECT_EQ(from_zero.at, 0.0);
-  EXPECT_NEAR(from_zero.by, 1.2, 1e-12);  // (1/1 + 2/4) / (1/1 + 4/16)
-}
-
-TEST(PassModel, ValuesOfZeroSayNothing) {
-  EXPECT_EQ(rising_line({}).at, 0.0);
-  EXPECT_EQ(rising_line(std::vector<Measured>{{1.0, 0.0, 1.0}}).by, 0.0);
-  const Line one = rising_line(std::vector<Measured>{{1.0, 0.0, 1.0}, {5.0, 3.0, 1.0}});
-  EXPECT_DOUBLE_EQ(one.at, 3.0);
-  EXPECT_EQ(one.by, 0.0);
-}
 
 /// What goes with photons goes with the area that they are gathered in.
 TEST(PassModel, WiderRadiiTakeLonger) {

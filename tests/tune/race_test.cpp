@@ -7,6 +7,7 @@
 #include "tune/pilot_scenes.h"
 #include "tune/ticking_clock.h"
 #include "vpm/integrators/default_radii.h"
+#include "vpm/integrators/open_ways.h"
 
 namespace vpm {
 namespace {
@@ -53,7 +54,16 @@ TEST(Race, BeamsWinWhereFewPhotonsCollide) {
   EXPECT_EQ(open.ways[0].name, "photon-map by beam");
   const Winner winner = race(scene, gather, open.ways, TickingClock(1.0));
   EXPECT_EQ(winner.settings.volume.type(), "photon-beams") << winner.reason;
-  EXPECT_NE(winner.reason.find("behind it photon-map by beam"), std::string::npos) << winner.reason;
+  EXPECT_NE(winner.reason.find("behind photon-map by beam"), std::string::npos) << winner.reason;
+}
+
+/// Neither of two that are the same is surely behind.
+TEST(Race, TheFirstOfThoseAlikeIsTaken) {
+  const Scene scene = lit_evenly(0.5f);
+  RenderSettings settings;
+  settings.until.seconds = 100.0;
+  const Winner winner = race(scene, kAll, {{"one", settings}, {"two", settings}}, TickingClock(1.0));
+  EXPECT_EQ(winner.reason, "the first of those that pilot passes do not tell apart, two");
 }
 
 /// By a clock of ticks nothing depends on the machine, nor on the number of threads.

@@ -7,6 +7,7 @@
 
 #include "tune/pilot_scenes.h"
 #include "tune/ticking_clock.h"
+#include "vpm/integrators/default_radii.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/integrators/words.h"
 #include "vpm/render/render.h"
@@ -90,7 +91,7 @@ TEST(Pilot, SeesWhatLightTracingFinds) {
     for (const TechniqueInfo& info : kTechniques)
       settings.combined.techniques.set(info.technique, info.technique == technique);
     double sum = 0.0;
-    for (const Rgbd& light : pilot_of(scene, settings, 4).surely_shown())
+    for (const Rgbd& light : surely_shown(pilot_of(scene, settings, 4).squares()))
       if (!std::isnan(light.r)) sum += light.g;
     return sum;
   };
@@ -104,11 +105,8 @@ TEST(Pilot, PathsMissWhatPhotonsShow) {
   RenderSettings paths;
   paths.integrator = Integrator::path;
   const WayPilot maps = pilot_of(scene, photons, 4), blind = pilot_of(scene, paths, 4);
-  const Unseen unseen = blind.unseen_beside(maps);
-  EXPECT_GT(unseen.in_blocks, 0.1);
-  EXPECT_GT(unseen.in_all, 0.1);
-  EXPECT_EQ(maps.unseen_beside(blind).in_blocks, 0.0);
-  EXPECT_EQ(maps.unseen_beside(blind).in_all, 0.0);
+  EXPECT_GT(unseen_by(blind.light(), maps.light()), 0.1);
+  EXPECT_EQ(unseen_by(maps.light(), blind.light()), 0.0);
 }
 
 /// Each sees all of an evenly lit floor.
@@ -119,8 +117,7 @@ TEST(Pilot, NothingIsMissingWhereBothSeeTheSame) {
   photons.volume.radius = photons.surface.radius = 0.05f;
   paths.integrator = Integrator::path;
   const WayPilot maps = pilot_of(room.scene, photons, 6), traced = pilot_of(room.scene, paths, 6);
-  EXPECT_EQ(traced.unseen_beside(maps).in_blocks, 0.0);
-  EXPECT_EQ(traced.unseen_beside(maps).in_all, 0.0);
+  EXPECT_EQ(unseen_by(traced.light(), maps.light()), 0.0);
 }
 
 /// Photons that take as long as rays do, by the clock, whose passes and rays take one tick each.
@@ -142,9 +139,9 @@ TEST(Pilot, RadiiAreScaledUpToATwentiethOfTheScene) {
   ASSERT_EQ(pilot.radii().size(), 2u);
   RenderSettings settings = pilot.way().settings;
   const float before = settings.surface.radius.metres();
-  pilot.scale_radii(0.5, settings);
+  scale_radii(pilot.radii(), 0.5, room.scene, settings);
   EXPECT_NEAR(settings.surface.radius.metres(), 0.5f * before, 5e-3f * before);
-  pilot.scale_radii(1000.0, settings);
+  scale_radii(pilot.radii(), 1000.0, room.scene, settings);
   EXPECT_NEAR(settings.surface.radius.metres(), 0.05 * room.scene.bounds.diagonal(), 1e-3);
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "vpm/integrators/settings.h"
+
 namespace vpm {
 
 /// Which settings are to be chosen, by their keys; those that may be are Setting::automatic. What is not to be
@@ -31,5 +33,9 @@ struct Choice {
   std::string value;  // as --set takes it, to the last bit
   std::string reason;
 };
+
+/// Puts a choice made earlier into the settings. Throws InputError where it is none: a setting that is not
+/// Setting::automatic, or a value that is not of its domain, or 0.
+void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value);
 
 }  // namespace vpm

@@ -9,6 +9,7 @@
 
 #include "vpm/estimate/photon_map.h"
 #include "vpm/integrators/combined/combined_pass.h"
+#include "vpm/integrators/describe.h"
 #include "vpm/integrators/photon_map/plan.h"
 
 namespace vpm {
@@ -151,6 +152,15 @@ std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSett
   const uint64_t photons = emitted > 0 ? std::min(emitted, kPhotonsOfDefaults) : kPhotonsOfDefaults;
   const auto densities = densities_for_radii(photons, scene, automatic, settings);
   return densities ? choose_radii(scene, automatic, *densities, settings) : std::vector<Choice>();
+}
+
+void scale_radii(const std::vector<Choice>& radii, double factor, const Scene& scene, RenderSettings& settings) {
+  const double most = kLargestRadius * scene.bounds.diagonal();
+  for (const Choice& choice : radii) {
+    const Setting setting = find_setting(settings, choice.key).value();
+    const double radius = std::get<float>(setting.get());
+    setting.set(static_cast<float>(rounded(std::min(factor * radius, std::max(radius, most)), 3)));
+  }
 }
 
 }  // namespace vpm

@@ -18,8 +18,4 @@ namespace vpm {
 std::vector<Choice> choose_settings(const Scene& scene, const AutomaticSettings& automatic, const Clock& clock,
                                     RenderSettings& settings);
 
-/// Puts a choice made earlier into the settings. Throws InputError where it is none: a setting that is not
-/// Setting::automatic, or a value that is not of its domain, or 0.
-void set_chosen(RenderSettings& settings, const std::string& key, const std::string& value);
-
 }  // namespace vpm

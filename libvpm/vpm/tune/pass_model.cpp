@@ -8,28 +8,6 @@
 
 namespace vpm {
 
-Line rising_line(std::span<const Measured> values) {
-  double w = 0.0, x = 0.0, xx = 0.0, y = 0.0, xy = 0.0;  // weighted sums, of relative values
-  for (const Measured& value : values) {
-    if (!(value.y > 0.0)) continue;
-    w += value.weight / (value.y * value.y);
-    x += value.weight * value.x / (value.y * value.y);
-    xx += value.weight * value.x * value.x / (value.y * value.y);
-    y += value.weight / value.y;
-    xy += value.weight * value.x / value.y;
-  }
-  if (w == 0.0) return {};
-  const double spread = w * xx - x * x;
-  const double by = spread > 1e-9 * w * xx ? (w * xy - x * y) / spread : 0.0;
-  if (by <= 0.0) return {y / w, 0.0};
-  const double at = (y - by * x) / w;
-  return at >= 0.0 ? Line{at, by} : Line{0.0, xy / xx};
-}
-
-double PassModel::seconds(double photons, double radii) const {
-  return making(photons) + seeing(radii * radii * photons);
-}
-
 double PassModel::error(double passes, double photons, double radii, const RenderSettings& settings) const {
   constexpr int kDimension = 2, kMostSummed = 2000;
   const int order = kernel_order(settings.volume.kernel), n = static_cast<int>(std::min(passes, double{kMostSummed}));

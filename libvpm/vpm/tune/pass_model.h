@@ -2,8 +2,7 @@
 // within. A pilot measures the coefficients.
 #pragma once
 
-#include <span>
-
+#include "vpm/base/statistics/line_fit.h"
 #include "vpm/integrators/settings.h"
 
 namespace vpm {
@@ -11,18 +10,6 @@ namespace vpm {
 /// A picture's squared bias goes as the fourth power of the radius where light is smooth, and as the first or second at
 /// edges: a middle.
 inline constexpr double kPowerOfBias = 3.0;
-
-/// A number that goes with another by a line: at + by x.
-struct Line {
-  double at = 0.0, by = 0.0;
-
-  double operator()(double x) const { return at + by * x; }
-};
-struct Measured {
-  double x, y, weight;
-};
-/// The line of least relative squares of y that neither falls nor begins below 0. Values of 0 count for nothing.
-Line rising_line(std::span<const Measured> values);
 
 /// Radii are factors of those that a pilot began with.
 struct PassModel {
@@ -34,7 +21,7 @@ struct PassModel {
   double unseen = 0.0;          // relative variance of a pass, by light that others show for certain, and this does not
 
   /// s: a pass.
-  double seconds(double photons, double radii) const;
+  double seconds(double photons, double radii) const { return making(photons) + seeing(radii * radii * photons); }
   /// The relative MSE of so many passes, >= 1. The noise of rays falls as one over them. That of photons and the bias
   /// go as radii do: all are taken to shrink as those of discs.
   double error(double passes, double photons, double radii, const RenderSettings& settings) const;

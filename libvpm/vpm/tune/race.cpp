@@ -5,44 +5,44 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
-#include "vpm/base/settings/setting_error.h"
 #include "vpm/base/statistics/moments.h"
 #include "vpm/image/metrics.h"
 #include "vpm/integrators/default_radii.h"
 #include "vpm/integrators/describe.h"
-#include "vpm/integrators/words.h"
 #include "vpm/tune/way_pilot.h"
 
 namespace vpm {
 namespace {
 
-constexpr double kPilotShare = 0.2, kMostShare = 0.5;  // of the seconds of a render
-constexpr double kSizeShare = 0.4;                     // of these, to find the size of passes
-constexpr double kAloneShare = 0.1;                    // likewise, where one way is left
-constexpr double kNothingShown = 0.5;                  // an error of which a pilot says nothing
-constexpr int kPassesOfRound = 2, kMostRounds = 30;
+constexpr double kPilotShare = 0.2, kAloneShare = 0.1;  // of the seconds of a render; where one way is left
+constexpr double kMostShare = 0.5, kSizeShare = 0.4;  // likewise, at the most; of a pilot's, to find the size of passes
+constexpr double kNothingShown = 0.5;                 // an error of which a pilot says nothing
+constexpr int kPassesOfRound = 2;
 
 struct Runner {
   WayPilot pilot;
   size_t turn;  // as they began
   PassModel model{};
-  PassSize best{};           // for it
-  double error = kInfinity;  // that it would leave then; infinite where no pass fits
-  double doubt = 0.0;        // of that, relative
+  PassSize best{};              // for it
+  double error = kInfinity;     // that it would leave then; infinite where no pass fits
+  std::vector<double> noise{};  // of blocks
 
   /// What few samples say of rare bright ones is too little: those that differ most are trusted least.
-  double high_error() const { return error * (1.0 + 2.0 * doubt * doubt); }
-
-  const std::string& name() const { return pilot.way().name; }
+  double high_error() const {
+    const Moments blocks = moments_of_known(noise);
+    return blocks.mean() > 0.0 ? error * (1.0 + 2.0 * blocks.variance_of_mean() / (blocks.mean() * blocks.mean()))
+                               : error;
+  }
 };
 
 /// By what one way surely shows in each square of pixels: the most of all, as others may miss it.
 Scales scales_of(const std::vector<Runner>& runners) {
-  Scales most = runners.front().pilot.surely_shown();
+  Scales most(kSquares, Rgbd(NAN));
   for (const Runner& runner : runners) {
-    const std::vector<Rgbd> shown = runner.pilot.surely_shown();
-    for (size_t i = 0; i < most.size(); ++i)
+    const std::vector<Rgbd> shown = surely_shown(runner.pilot.squares());
+    for (size_t i = 0; i < kSquares; ++i)
       for (int channel = 0; channel < 3; ++channel) most[i][channel] = std::fmax(most[i][channel], shown[i][channel]);
   }
   for (int channel = 0; channel < 3; ++channel) {
@@ -54,12 +54,12 @@ Scales scales_of(const std::vector<Runner>& runners) {
   return most;
 }
 
-/// The photons and radii that leave the least error in so many seconds. They stay near those that the pilot began with,
-/// as rare bright samples make the noise of few photons look small.
+/// The photons and radii that leave clearly less error in so many seconds than usual ones. They stay near these, as
+/// rare bright samples make the noise of few photons look small.
 void find_best(double seconds, Runner& runner) {
-  constexpr std::array kPhotons{0.7, 1.0, 1.4, 2.0};
+  constexpr std::array kPhotons{1.0, 1.4, 2.0};
   constexpr std::array kRadii{0.5, 0.7, 1.0, 1.4, 2.0};
-  constexpr double kClearlyLess = 0.9;
+  constexpr double kClearlyLess = 0.8;
   const WayPilot& pilot = runner.pilot;
   const PassSize usual = pilot.usual();
   const auto error_of = [&](const PassSize& size) {
@@ -72,84 +72,82 @@ void find_best(double seconds, Runner& runner) {
   for (const double more : kPhotons)
     for (const double wider : kRadii) {
       const PassSize size{more * usual.photons, wider};
-      if (more != 1.0 && (!pilot.chooses_photons() || size.photons > pilot.most_photons())) continue;
-      if (wider != 1.0 && pilot.radii().empty()) continue;
-      if (const double error = error_of(size); error < least) {
+      const bool photons_open = more == 1.0 || (pilot.chooses_photons() && size.photons <= pilot.most_photons());
+      const bool open = photons_open && (wider == 1.0 || !pilot.radii().empty());
+      if (const double error = open ? error_of(size) : kInfinity; error < least) {
         least = runner.error = error;
         runner.best = size;
       }
     }
 }
 
-/// Computes the errors after so many seconds of passes, and sorts by them. Returns what they are relative to.
-Scales compare(double seconds, std::vector<Runner>& runners) {
-  Scales scales = scales_of(runners);
-  for (Runner& runner : runners) {
+/// Computes the errors after so many seconds of passes, and sorts by them.
+void compare(double seconds, std::vector<Runner>& runners) {
+  const Scales scales = scales_of(runners);
+  std::vector<ShownLight> lights;
+  for (const Runner& runner : runners) lights.push_back(runner.pilot.light());
+  for (size_t i = 0; i < runners.size(); ++i) {
+    Runner& runner = runners[i];
     runner.model = runner.pilot.model(scales);
-    Unseen unseen;
-    for (const Runner& other : runners) {
-      const Unseen beside = runner.pilot.unseen_beside(other.pilot);
-      unseen.in_blocks = std::max(unseen.in_blocks, beside.in_blocks);
-      unseen.in_all = std::max(unseen.in_all, beside.in_all);
-    }
+    double missing = 0.0;
+    for (const ShownLight& light : lights) missing = std::max(missing, unseen_by(lights[i], light));
     // Kernels take light away from edges. Where there are none, a ray that meets such light is rarer than one in all
     // that went there, and so its square is at least their number times that of the mean.
     if (runner.model.power_of_noise == 0.0)
-      runner.model.unseen = runner.pilot.rays() * std::max(unseen.in_blocks / runner.pilot.blocks(), unseen.in_all);
+      runner.model.unseen = runner.pilot.rays_of_block() * missing;
     else
-      runner.model.bias2 = std::max({runner.model.bias2, unseen.in_blocks, unseen.in_all});
-    runner.doubt = runner.pilot.doubt(scales);
+      runner.model.bias2 = std::max(runner.model.bias2, missing);
+    runner.noise = runner.pilot.noise_of_blocks(scales);
     find_best(seconds, runner);
   }
   std::stable_sort(runners.begin(), runners.end(),
                    [](const Runner& a, const Runner& b) { return a.high_error() < b.high_error(); });
-  return scales;
 }
 
-/// Is a way surely behind the first? The errors of both differ from block to block, and so does their difference.
-bool is_behind(const Runner& first, const Runner& other, const Scales& scales) {
-  constexpr double kSure = 2.0;  // standard errors
-  const std::vector<double> of_first = first.pilot.noise_of_blocks(scales),
-                            of_other = other.pilot.noise_of_blocks(scales);
-  Moments differences, firsts, others;
-  for (size_t block = 0; block < of_first.size(); ++block) {
-    if (std::isnan(of_first[block]) || std::isnan(of_other[block])) continue;
-    firsts.add(of_first[block]);
-    others.add(of_other[block]);
-  }
-  if (!(firsts.mean() > 0.0 && others.mean() > 0.0)) return std::isinf(other.error);
-  for (size_t block = 0; block < of_first.size(); ++block)
-    if (!std::isnan(of_first[block]) && !std::isnan(of_other[block]))
-      differences.add(other.error * of_other[block] / others.mean() - first.error * of_first[block] / firsts.mean());
-  return std::isinf(other.error) || differences.mean() > kSure * std::sqrt(differences.variance_of_mean());
+/// The relative standard error of the ratio of two ways' noise, where blocks count as samples: none if one is as many
+/// times that of the other everywhere.
+double doubt_of_ratio(const std::vector<double>& a, const std::vector<double>& b) {
+  Moments all_a, all_b, differences;
+  const auto each_block = [&](const auto& use) {
+    for (size_t i = 0; i < a.size(); ++i)
+      if (!std::isnan(a[i] + b[i])) use(a[i], b[i]);
+  };
+  each_block([&](double of_a, double of_b) { all_a.add(of_a), all_b.add(of_b); });
+  each_block([&](double of_a, double of_b) { differences.add(of_a / all_a.mean() - of_b / all_b.mean()); });
+  return std::sqrt(differences.variance_of_mean());
 }
 
-/// Drops those that are surely behind the first. Returns their names, each behind ", ".
-std::string drop_behind(const Scales& scales, std::vector<Runner>& runners) {
+/// Drops those that are surely behind the first, unless that one shows next to nothing. Returns their names, each
+/// behind
+/// ", ".
+std::string drop_behind(std::vector<Runner>& runners) {
+  constexpr double kAlike = 1.5, kSure = 2.0;  // times, which no pilot tells apart; standard errors
+  const auto is_behind = [&first = runners.front()](const Runner& other) {
+    if (first.error > kNothingShown) return false;
+    return std::isinf(other.error) ||
+           other.error > first.error * (kAlike + kSure * doubt_of_ratio(first.noise, other.noise));
+  };
   std::string names;
   for (size_t i = runners.size(); i-- > 1;)
-    if (is_behind(runners.front(), runners[i], scales)) {
-      names = ", " + runners[i].name() + names;
+    if (is_behind(runners[i])) {
+      names = ", " + runners[i].pilot.way().name + names;
       runners.erase(runners.begin() + static_cast<std::ptrdiff_t>(i));
     }
   return names;
 }
 
 /// What the winner chose besides its components.
-Winner with_numbers(const Runner& best) {
-  Winner winner{best.pilot.way().settings};
+Winner with_numbers(const Scene& scene, const Runner& best, const std::string& reason) {
+  Winner winner{best.pilot.way().settings, {}, reason};
   if (best.pilot.chooses_photons()) {
     winner.settings.photons.emitted = static_cast<uint64_t>(rounded(best.best.photons, 2));
     winner.choices.push_back({"integrator.photons.emitted", fmt::format("{}", winner.settings.photons.emitted),
                               "with what passes of two sizes took and showed"});
   }
-  if (best.best.radii != 1.0) best.pilot.scale_radii(best.best.radii, winner.settings);
+  if (best.best.radii != 1.0) scale_radii(best.pilot.radii(), best.best.radii, scene, winner.settings);
   for (Choice choice : best.pilot.radii()) {
-    const std::string value = text_of(find_setting(winner.settings, choice.key)->get());
-    if (value != choice.value)
-      choice.reason = fmt::format("{}: {}; then times {:.2g}, up to a twentieth of the scene, by pilot passes",
-                                  choice.value, choice.reason, best.best.radii);
-    choice.value = value;
+    const std::string first = std::exchange(choice.value, text_of(find_setting(winner.settings, choice.key)->get()));
+    if (choice.value != first) choice.reason = fmt::format("{}: {}; changed by pilot passes", first, choice.reason);
     winner.choices.push_back(choice);
   }
   return winner;
@@ -195,59 +193,29 @@ bool go_on(double end, const Clock& clock, std::vector<Runner>& runners) {
 
 }  // namespace
 
-OpenWays open_ways(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
-  constexpr std::array kIntegrators{Integrator::photon, Integrator::combined, Integrator::path};
-  OpenWays open;
-  std::string last;  // of several ways of the same integrator, which have the same fault
-  for (const Integrator integrator : kIntegrators) {
-    if (!automatic.has("integrator.type") && integrator != settings.integrator) continue;
-    Way given{word_of(integrator), settings};
-    given.settings.integrator = integrator;
-    const auto ways = info_of(integrator).ways;
-    for (Way& way : ways ? ways(scene, automatic, given) : std::vector<Way>{given}) {
-      try {
-        validate(way.settings, facts_of(scene));
-        open.ways.push_back(std::move(way));
-      } catch (const SettingError& error) {
-        if (error.wrong() != last) open.refused += fmt::format("; not {}: {}", way.name, error.wrong());
-        last = error.wrong();
-      }
-    }
-  }
-  return open;
-}
-
 Winner race(const Scene& scene, const AutomaticSettings& automatic, const std::vector<Way>& ways, const Clock& clock) {
   const double begin = clock.seconds(), seconds = ways.front().settings.until.seconds;
   std::vector<Runner> runners;
   const std::string late = start(ways, scene, automatic, seconds, clock, runners);
   if (runners.empty()) {
-    Winner winner{ways.front().settings};
-    winner.choices = choose_default_radii(scene, automatic, winner.settings);
-    winner.reason = "the first of all" + late;
-    return winner;
+    RenderSettings first = ways.front().settings;
+    const std::vector<Choice> radii = choose_default_radii(scene, automatic, first);
+    return {first, radii, "the first of all" + late};
   }
   std::string behind;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const Scales scales = compare(begin + seconds - clock.seconds(), runners);
-    behind = drop_behind(scales, runners) + behind;
-    if (!go_on(begin + (runners.size() > 1 ? kPilotShare : kAloneShare) * seconds, clock, runners)) break;
-  }
-  for (size_t i = runners.size(); i-- > 1;) behind = ", " + runners[i].name() + behind;
+  do {
+    compare(begin + seconds - clock.seconds(), runners);
+    behind = drop_behind(runners) + behind;
+  } while (go_on(begin + (runners.size() > 1 ? kPilotShare : kAloneShare) * seconds, clock, runners));
   const bool nothing_shown = runners.front().error > kNothingShown;
-  if (nothing_shown) {
-    std::stable_sort(runners.begin(), runners.end(), [](const Runner& a, const Runner& b) { return a.turn < b.turn; });
-    runners.front().best = runners.front().pilot.usual();
-  }
-  Winner winner = with_numbers(runners.front());
-  if (nothing_shown)
-    winner.reason = "the first of all, as pilot passes show next to nothing";
-  else if (behind.empty())
-    winner.reason = "no other way is open";
-  else
-    winner.reason = "the least error by pilot passes; behind it" + behind.substr(1);
-  winner.reason += late;
-  return winner;
+  std::stable_sort(runners.begin(), runners.end(), [](const Runner& a, const Runner& b) { return a.turn < b.turn; });
+  if (nothing_shown) runners.front().best = runners.front().pilot.usual();
+  std::string reason = "the least error by pilot passes";
+  if (runners.size() > 1) reason = "the first of those that pilot passes do not tell apart";
+  for (size_t i = 1; i < runners.size(); ++i) reason += ", " + runners[i].pilot.way().name;
+  if (!behind.empty()) reason += "; behind" + behind.substr(1);
+  if (ways.size() == 1) reason = "no other way is open";
+  return with_numbers(scene, runners.front(), reason + late);
 }
 
 }  // namespace vpm

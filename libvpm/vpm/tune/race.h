@@ -9,13 +9,6 @@
 
 namespace vpm {
 
-/// Those that the settings and the scene allow, and what is wrong with the others: "; not NAME: WHY", or "".
-struct OpenWays {
-  std::vector<Way> ways;
-  std::string refused;
-};
-OpenWays open_ways(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings);
-
 /// What won, with the radii and the number of photons that it chose, and why; with its default radii where the time
 /// did not allow any way a pilot.
 struct Winner {

@@ -2,29 +2,19 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "vpm/integrators/integrator.h"
 #include "vpm/integrators/photon_density.h"
+#include "vpm/integrators/small_pass.h"
 #include "vpm/tune/pass_model.h"
-#include "vpm/tune/small_pass.h"
+#include "vpm/tune/shown_light.h"
 
 namespace vpm {
-
-/// What squared errors are divided by (relative_scale), for each channel of each square of kBlock pixels.
-using Scales = std::vector<Rgbd>;
 
 /// Of a pass: its photons, and the factor of the radii.
 struct PassSize {
   double photons = 0.0, radii = 1.0;
-};
-
-/// The relative squares of the light that a way misses, but another shows in the same pixels: more than four standard
-/// errors, or ten where four passes say them, and twice the correction of either above what it shows.
-struct Unseen {
-  double in_blocks = 0.0;  // the mean of blocks
-  double in_all = 0.0;     // of all together, where light is missing that no block is sure of
 };
 
 class WayPilot {
@@ -44,28 +34,22 @@ class WayPilot {
   /// What passes take, and nothing of their errors.
   PassModel times() const;
   PassModel model(const Scales& scales) const;
-  /// Of squares of pixels, in the order of all blocks, two standard errors below the mean, if that is not below 0; NaN
-  /// in blocks that were not followed.
-  std::vector<Rgbd> surely_shown() const;
-  /// The relative standard error of noise, as it differs from block to block.
-  double doubt(const Scales& scales) const;
-  /// The noise of the passes with most photons in each of all blocks; NaN likewise.
+  /// The noise of the passes with most photons in each of all blocks; NaN where none was followed.
   std::vector<double> noise_of_blocks(const Scales& scales) const;
-  Unseen unseen_beside(const WayPilot& other) const;
-  /// How many were followed, in all passes, and through how many blocks.
-  double rays() const;
-  double blocks() const;
+  /// The means of squares of pixels.
+  const MeansOfPasses& squares() const { return squares_; }
+  ShownLight light() const { return shown_light(blocks_, corrections_); }
+  /// Rays that were followed through a block, in all passes.
+  double rays_of_block() const { return double{kBlockRays} * blocks_.passes() * way_.settings.samples_per_pixel; }
 
   /// Its settings are those that passes began with.
   const Way& way() const { return way_; }
   /// As many photons as take as long as rays do without any, by the passes so far, where their number is to be chosen.
   PassSize usual() const;
-  bool chooses_photons() const;
+  bool chooses_photons() const { return has_photons_ && automatic_->has("integrator.photons.emitted"); }
   /// No more fit into maps of 1.3 GB.
   double most_photons() const { return most_photons_; }
   const std::vector<Choice>& radii() const { return radii_; }
-  /// The radii times a factor, though no wider than kLargestRadius of the scene, are put into settings.
-  void scale_radii(double factor, RenderSettings& settings) const;
 
  private:
   struct Passes {
@@ -75,21 +59,21 @@ class WayPilot {
   SmallPass render(const PassSize& size);
   void add_pass(const PassSize& size);
   const Passes& largest() const;
-  double bias2(const Scales& scales, const Line& noise, double power) const;
-  template <class Use>
-  void each_pass(Use&& use) const;
+  double bias2(const Scales& scales) const;
 
   const Scene* scene_;
   const AutomaticSettings* automatic_;
   const Clock* clock_;
   Way way_;
+  bool has_photons_;
   std::vector<Choice> radii_{};
   std::optional<MapDensities> densities_{};
   BlocksTaken taken_ = BlocksTaken::quarter;
-  double most_photons_ = 0.0;
+  double most_photons_ = kInfinity;
   int number_ = 0;        // of the next pass
   double photons_ = 0.0;  // of the largest pass so far
   std::vector<Passes> passes_{};
+  MeansOfPasses squares_{kBlock}, blocks_{kBlockRays}, corrections_{kBlockRays, &KernelEstimate::correction};
 };
 
 }  // namespace vpm

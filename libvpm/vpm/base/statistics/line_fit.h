@@ -1,4 +1,4 @@
-// A straight line through points, by least squares.
+// Straight lines through points, by least squares.
 #pragma once
 
 #include <cassert>
@@ -31,6 +31,34 @@ inline LineFit fit_line(std::span<const double> x, std::span<const double> y) {
   for (size_t i = 0; i < x.size(); ++i) residuals += std::pow(y[i] - of_y.mean() - slope * (x[i] - of_x.mean()), 2);
   const double error = n > 2.0 ? std::sqrt(residuals / (n - 2.0) / squares) : std::numeric_limits<double>::quiet_NaN();
   return {slope, error};
+}
+
+/// A number that goes with another by a line: at + by x.
+struct Line {
+  double at = 0.0, by = 0.0;
+
+  double operator()(double x) const { return at + by * x; }
+};
+struct PointOfLine {
+  double x, y, weight;
+};
+/// The line of least relative squares of y that neither falls nor begins below 0. Values of 0 count for nothing.
+inline Line rising_line(std::span<const PointOfLine> values) {
+  double w = 0.0, x = 0.0, xx = 0.0, y = 0.0, xy = 0.0;  // weighted sums, of relative values
+  for (const PointOfLine& value : values) {
+    if (!(value.y > 0.0)) continue;
+    w += value.weight / (value.y * value.y);
+    x += value.weight * value.x / (value.y * value.y);
+    xx += value.weight * value.x * value.x / (value.y * value.y);
+    y += value.weight / value.y;
+    xy += value.weight * value.x / value.y;
+  }
+  if (w == 0.0) return {};
+  const double spread = w * xx - x * x;
+  const double by = spread > 1e-9 * w * xx ? (w * xy - x * y) / spread : 0.0;
+  if (by <= 0.0) return {y / w, 0.0};
+  const double at = (y - by * x) / w;
+  return at >= 0.0 ? Line{at, by} : Line{0.0, xy / xx};
 }
 
 }  // namespace vpm

@@ -1,5 +1,5 @@
 // Blocks are chunks of parallel work, each with random numbers of its own.
-#include "vpm/tune/small_pass.h"
+#include "vpm/integrators/small_pass.h"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,9 @@ constexpr int kBlocks = static_cast<int>(kBlocksOfEdge);
 static_assert(kEdge * kEdge == kBlockRays && kBlockRays == kEyeRays);
 
 std::vector<uint32_t> numbers_of(BlocksTaken taken) {
-  const uint32_t step = taken == BlocksTaken::all ? 1 : 2;
   std::vector<uint32_t> numbers;
-  for (uint32_t y = step - 1; y < kBlocksOfEdge; y += step)
-    for (uint32_t x = step - 1; x < kBlocksOfEdge; x += step) numbers.push_back(y * kBlocksOfEdge + x);
+  for (uint32_t block = 0; block < kAllBlocks; ++block)
+    if (taken == BlocksTaken::all || (block % 2 == 1 && block / kBlocksOfEdge % 2 == 1)) numbers.push_back(block);
   return numbers;
 }
 
@@ -93,12 +92,12 @@ SmallPass render_small(const Scene& scene, const RenderSettings& settings, int p
   });
   const double end = clock.seconds();
   const PixelRect rendered = scene.camera.rendered();
-  const double pixels_of_each = double(rendered.width()) * rendered.height() / static_cast<double>(small.found.size());
-  small.seeing = pixels_of_each * (end - made);
+  small.followed = static_cast<double>(small.found.size()) / (double{1} * rendered.width() * rendered.height());
+  small.seeing = (end - made) / small.followed;
   small.taken = end - begin;
   EyeCounters all;
   for (const EyeCounters& each : counters) all.merge(each);
-  small.eye_steps = pixels_of_each * static_cast<double>(all.walk.rays + all.walk.lookups);
+  small.eye_steps = static_cast<double>(all.walk.rays + all.walk.lookups) / small.followed;
   small.gathered_by_ray = static_cast<double>(all.gather.used) / static_cast<double>(all.rays);
   return small;
 }

@@ -23,6 +23,7 @@ struct SmallPass {
   double aiming = 0.0;             // s: what each took that is aimed for caustics
   double seeing = 0.0;             // s: what rays through all pixels would take, by those that were followed
   double taken = 0.0;              // s, in all
+  double followed = 1.0;           // rays, of those through all pixels
   double bytes = 0.0;              // of the photons
   uint64_t photon_steps = 0;       // rays and look-ups of the photons
   double eye_steps = 0.0;          // the same of rays through all pixels
