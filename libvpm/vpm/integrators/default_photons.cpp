@@ -17,9 +17,10 @@ std::optional<Choice> choose_default_photons(const Scene& scene, const Automatic
   if (!automatic.has(kKey) || settings.integrator == Integrator::path || !kCounts) return std::nullopt;
   RenderSettings few = settings;
   few.seed = ~few.seed;
+  few.radii = RadiusSchedule::constant;
   few.photons.emitted = static_cast<uint64_t>(kPilot);
   few.caustics.emitted = std::min(few.caustics.emitted, few.photons.emitted);
-  const SmallPass pass = render_small(scene, few, 0, BlocksTaken::all, WallClock());
+  const SmallPass pass = render_small(scene, few, 0, WallClock());
   if (pass.photon_steps == 0) return std::nullopt;
   const double balanced = pass.eye_steps / static_cast<double>(pass.photon_steps) * pass.photons;
   const double most = std::max(kFewest, pass.most_photons());

@@ -154,13 +154,19 @@ std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSett
   return densities ? choose_radii(scene, automatic, *densities, settings) : std::vector<Choice>();
 }
 
-void scale_radii(const std::vector<Choice>& radii, double factor, const Scene& scene, RenderSettings& settings) {
-  const double most = kLargestRadius * scene.bounds.diagonal();
+void scale_radii(const std::vector<Choice>& radii, double factor, RenderSettings& settings) {
   for (const Choice& choice : radii) {
     const Setting setting = find_setting(settings, choice.key).value();
-    const double radius = std::get<float>(setting.get());
-    setting.set(static_cast<float>(rounded(std::min(factor * radius, std::max(radius, most)), 3)));
+    setting.set(static_cast<float>(rounded(factor * std::get<float>(setting.get()), 3)));
   }
+}
+
+double widest_factor(const std::vector<Choice>& radii, const Scene& scene, RenderSettings settings) {
+  double widest = kInfinity;
+  for (const Choice& choice : radii)
+    widest = std::min(widest, kLargestRadius * double{scene.bounds.diagonal()} /
+                                  double{std::get<float>(find_setting(settings, choice.key)->get())});
+  return std::max(1.0, widest);
 }
 
 }  // namespace vpm

@@ -44,7 +44,9 @@ std::vector<Choice> choose_radii(const Scene& scene, const AutomaticSettings& au
 std::vector<Choice> choose_default_radii(const Scene& scene, const AutomaticSettings& automatic,
                                          RenderSettings& settings);
 
-/// Puts chosen radii times a factor into the settings, though no wider than kLargestRadius of the scene.
-void scale_radii(const std::vector<Choice>& radii, double factor, const Scene& scene, RenderSettings& settings);
+/// Puts chosen radii times a factor into the settings.
+void scale_radii(const std::vector<Choice>& radii, double factor, RenderSettings& settings);
+/// How many times as wide all of these may be, >= 1: up to kLargestRadius of the scene.
+double widest_factor(const std::vector<Choice>& radii, const Scene& scene, RenderSettings settings);
 
 }  // namespace vpm

@@ -13,8 +13,8 @@ namespace vpm {
 OpenWays open_ways(const Scene& scene, const AutomaticSettings& automatic, const RenderSettings& settings) {
   constexpr std::array kIntegrators{Integrator::photon, Integrator::combined, Integrator::path};
   OpenWays open;
-  std::string last;  // of several ways of the same integrator, which have the same fault
   for (const Integrator integrator : kIntegrators) {
+    std::string last;  // several ways of an integrator have the same fault
     if (!automatic.has("integrator.type") && integrator != settings.integrator) continue;
     Way given{word_of(integrator), settings};
     given.settings.integrator = integrator;

@@ -11,34 +11,26 @@ namespace vpm {
 namespace {
 
 constexpr int kEdge = 8;  // pixels, of a block
-constexpr int kBlocks = static_cast<int>(kBlocksOfEdge);
+constexpr int kAlong = static_cast<int>(kBlocksOfEdge);
 static_assert(kEdge * kEdge == kBlockRays && kBlockRays == kEyeRays);
-
-std::vector<uint32_t> numbers_of(BlocksTaken taken) {
-  std::vector<uint32_t> numbers;
-  for (uint32_t block = 0; block < kAllBlocks; ++block)
-    if (taken == BlocksTaken::all || (block % 2 == 1 && block / kBlocksOfEdge % 2 == 1)) numbers.push_back(block);
-  return numbers;
-}
 
 /// Where block number `part` along an edge begins that has so many pixels from `first` on: in the middle of its part.
 int begin_of(int part, int first, int pixels) {
-  return first + std::clamp((2 * part + 1) * pixels / (2 * kBlocks) - kEdge / 2, 0, std::max(0, pixels - kEdge));
+  return first + std::clamp((2 * part + 1) * pixels / (2 * kAlong) - kEdge / 2, 0, std::max(0, pixels - kEdge));
 }
 
 /// Pixel number `i` of a block: squares of kBlock pixels one after another.
-glm::ivec2 pixel_of(uint32_t block, size_t i, const PixelRect& rendered) {
+glm::ivec2 pixel_of(size_t block, size_t i, const PixelRect& rendered) {
   const int square = static_cast<int>(i / kBlock), within = static_cast<int>(i % kBlock);
-  const int x =
-      begin_of(static_cast<int>(block) % kBlocks, rendered.x0, rendered.width()) + square % 2 * 4 + within % 4;
+  const int x = begin_of(static_cast<int>(block) % kAlong, rendered.x0, rendered.width()) + square % 2 * 4 + within % 4;
   const int y =
-      begin_of(static_cast<int>(block) / kBlocks, rendered.y0, rendered.height()) + square / 2 * 4 + within / 4;
+      begin_of(static_cast<int>(block) / kAlong, rendered.y0, rendered.height()) + square / 2 * 4 + within / 4;
   return {std::min(x, rendered.x1 - 1), std::min(y, rendered.y1 - 1)};
 }
 
 /// What the rays of a block find, sample by sample of its pixels.
 void follow_block(const Scene& scene, const RenderSettings& settings, const RaysOfPass& ready, uint64_t stream,
-                  uint32_t block, std::span<KernelEstimate> found, EyeCounters& counters) {
+                  size_t block, std::span<KernelEstimate> found, EyeCounters& counters) {
   EyeScratch scratch;
   std::array<SampleMean, kBlockRays> means;
   std::vector<Rng> rngs;
@@ -49,7 +41,7 @@ void follow_block(const Scene& scene, const RenderSettings& settings, const Rays
     rngs.reserve(kBlockRays);
     for (size_t i = 0; i < kBlockRays; ++i) {
       const glm::ivec2 pixel = pixel_of(block, i, scene.camera.rendered());
-      const uint64_t number = (uint64_t{block} * kBlockRays + i) * settings.samples_per_pixel + sample;
+      const uint64_t number = (block * kBlockRays + i) * settings.samples_per_pixel + sample;
       Rng& rng = rngs.emplace_back(settings.seed, stream, number);
       const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(scene.camera.filter, rng.uniform2());
       rays.push_back({scene.camera.ray(film),
@@ -71,9 +63,8 @@ double SmallPass::most_photons() const {
   return kMostBytes / std::max(1.0, bytes / std::max(1.0, photons));
 }
 
-SmallPass render_small(const Scene& scene, const RenderSettings& settings, int pass, BlocksTaken taken,
-                       const Clock& clock) {
-  SmallPass small{.blocks = numbers_of(taken)};
+SmallPass render_small(const Scene& scene, const RenderSettings& settings, int pass, const Clock& clock) {
+  SmallPass small;
   const double begin = clock.seconds();
   const RaysOfPass ready = rays_of_pass(scene, settings, pass);
   const RenderStatistics& s = ready.statistics;
@@ -83,16 +74,15 @@ SmallPass render_small(const Scene& scene, const RenderSettings& settings, int p
   small.photons = static_cast<double>(s.ledger.emitted_count);
   small.photon_steps = s.ledger.walk.rays + s.ledger.walk.lookups;
   small.bytes = static_cast<double>(s.photon_map_bytes);
-  const size_t blocks = small.blocks.size();
-  small.found.resize(blocks * kBlockRays);
-  std::vector<EyeCounters> counters(blocks);
-  parallel_for_chunks(blocks, 1, [&](size_t i, size_t, size_t) {
-    follow_block(scene, settings, ready, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), small.blocks[i],
-                 std::span(small.found).subspan(i * kBlockRays, kBlockRays), counters[i]);
+  small.found.resize(kSmallRays);
+  std::vector<EyeCounters> counters(kBlocks);
+  parallel_for_chunks(kBlocks, 1, [&](size_t block, size_t, size_t) {
+    follow_block(scene, settings, ready, rng_stream(RngUse::pilot, 2 + static_cast<uint64_t>(pass)), block,
+                 std::span(small.found).subspan(block * kBlockRays, kBlockRays), counters[block]);
   });
   const double end = clock.seconds();
   const PixelRect rendered = scene.camera.rendered();
-  small.followed = static_cast<double>(small.found.size()) / (double{1} * rendered.width() * rendered.height());
+  small.followed = double{kSmallRays} / (double{1} * rendered.width() * rendered.height());
   small.seeing = (end - made) / small.followed;
   small.taken = end - begin;
   EyeCounters all;

@@ -160,7 +160,7 @@ std::string radius_that_fits(const Scene& scene, RenderSettings settings, double
 std::string wide_gather_text(const Scene& scene, const RenderSettings& settings) {
   if (settings.integrator == Integrator::path) return "";
   const RenderSettings few = few_photons(settings);
-  const SmallPass pass = render_small(scene, few, 0, BlocksTaken::quarter, WallClock());
+  const SmallPass pass = render_small(scene, few, 0, WallClock());
   double all = static_cast<double>(settings.photons.emitted);
   if (settings.integrator == Integrator::photon && settings.photons.stored > 0)
     all = photons_of_pass(settings, yield_of(scene, few, PassOf::picture).stored_per_photon);

@@ -2,6 +2,7 @@
 #include "vpm/tune/shown_light.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "vpm/image/metrics.h"
 
@@ -9,22 +10,20 @@ namespace vpm {
 namespace {
 
 Shown shown(const Moments& light, const Moments& correction) {
-  if (light.count() < 2) return {};
   return {light.mean(), std::sqrt(light.variance_of_mean()), correction.mean(),
           4.0 + 24.0 / static_cast<double>(light.count())};
 }
 
 /// A few passes say little of the standard error of one block: none is taken to be less sure than all are together.
-void even_out(int channel, std::vector<std::array<Shown, 3>>& blocks) {
+void even_out(int channel, ShownLight& blocks) {
   double squares = 0.0, lights = 0.0;
   for (const std::array<Shown, 3>& block : blocks) {
-    if (std::isnan(block[channel].mean)) continue;
     squares += block[channel].standard_error * block[channel].standard_error;
     lights += block[channel].mean * block[channel].mean;
   }
   const double relative = lights > 0.0 ? std::sqrt(squares / lights) : 0.0;
   for (std::array<Shown, 3>& block : blocks)
-    block[channel].standard_error = std::fmax(block[channel].standard_error, relative * std::abs(block[channel].mean));
+    block[channel].standard_error = std::max(block[channel].standard_error, relative * std::abs(block[channel].mean));
 }
 
 /// The relative square of the light that `other` surely shows and `own` does not; `mean` of the picture.
@@ -38,12 +37,11 @@ double unseen_square(const Shown& own, const Shown& other, double mean) {
 }  // namespace
 
 void MeansOfPasses::add(const SmallPass& pass) {
-  ++passes_;
   for (size_t first = 0; first < pass.found.size(); first += pixels_) {
     Rgbd sum(0.0);
     for (size_t i = first; i < first + pixels_; ++i) sum += Rgbd(pass.found[i].*part_);
-    Channels& means = means_[(pass.blocks[first / kBlockRays] * kBlockRays + first % kBlockRays) / pixels_];
-    for (int channel = 0; channel < 3; ++channel) means[channel].add(sum[channel] / static_cast<double>(pixels_));
+    for (int channel = 0; channel < 3; ++channel)
+      means_[first / pixels_][channel].add(sum[channel] / static_cast<double>(pixels_));
   }
 }
 
@@ -51,10 +49,9 @@ std::vector<Rgbd> surely_shown(const MeansOfPasses& squares) {
   constexpr double kSure = 2.0;  // standard errors
   std::vector<Rgbd> surely;
   for (const MeansOfPasses::Channels& means : squares.means()) {
-    Rgbd& least = surely.emplace_back(NAN);
+    Rgbd& least = surely.emplace_back(0.0);
     for (int channel = 0; channel < 3; ++channel)
-      if (means[channel].count() > 1)
-        least[channel] = std::max(0.0, means[channel].mean() - kSure * std::sqrt(means[channel].variance_of_mean()));
+      least[channel] = std::max(0.0, means[channel].mean() - kSure * std::sqrt(means[channel].variance_of_mean()));
   }
   return surely;
 }
@@ -73,13 +70,10 @@ double unseen_by(const ShownLight& own, const ShownLight& other) {
   double missing = 0.0;
   for (int channel = 0; channel < 3; ++channel) {
     Moments lights, squares;
-    for (const std::array<Shown, 3>& block : other)
-      if (!std::isnan(block[channel].mean)) lights.add(block[channel].mean);
+    for (const std::array<Shown, 3>& block : other) lights.add(block[channel].mean);
     if (!(lights.mean() > 0.0)) continue;
-    for (size_t block = 0; block < own.size(); ++block) {
-      const Shown &ours = own[block][channel], &theirs = other[block][channel];
-      if (!std::isnan(ours.mean + theirs.mean)) squares.add(unseen_square(ours, theirs, lights.mean()));
-    }
+    for (size_t block = 0; block < own.size(); ++block)
+      squares.add(unseen_square(own[block][channel], other[block][channel], lights.mean()));
     missing += squares.mean() / 3.0;
   }
   return missing;

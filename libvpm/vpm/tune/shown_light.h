@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "vpm/base/floats.h"
@@ -13,51 +12,44 @@ namespace vpm {
 
 /// What squared errors are divided by (relative_scale), for each channel of each square of kBlock pixels.
 using Scales = std::vector<Rgbd>;
-/// As many as all blocks have.
-inline constexpr size_t kSquares = kAllBlocks * kBlockRays / kBlock;
+inline constexpr size_t kSquares = kSmallRays / kBlock;
 
-/// Of values that are no NaN.
-inline Moments moments_of_known(const std::vector<double>& values) {
+inline Moments moments_of(const std::vector<double>& values) {
   Moments moments;
-  for (const double value : values)
-    if (!std::isnan(value)) moments.add(value);
+  for (const double value : values) moments.add(value);
   return moments;
 }
 
-/// Over passes: the means of so many pixels one after another, at most those of a block, in the order of all blocks.
-/// Those of blocks that were not followed count none.
+/// Over passes: the means of so many pixels one after another, at most those of a block.
 class MeansOfPasses {
  public:
   using Channels = std::array<Moments, 3>;
 
   explicit MeansOfPasses(size_t pixels, Rgb KernelEstimate::*part = &KernelEstimate::value)
-      : pixels_(pixels), part_(part), means_(kAllBlocks * kBlockRays / pixels) {}
+      : pixels_(pixels), part_(part), means_(kSmallRays / pixels) {}
   void add(const SmallPass& pass);
-  int passes() const { return passes_; }
   const std::vector<Channels>& means() const { return means_; }
 
  private:
   size_t pixels_;
   Rgb KernelEstimate::*part_;
   std::vector<Channels> means_;
-  int passes_ = 0;
 };
 
-/// Means that are known by two passes, less two standard errors, though not below 0; NaN elsewhere.
+/// Means less two standard errors, though not below 0. Of two passes or more, as all that follows.
 std::vector<Rgbd> surely_shown(const MeansOfPasses& squares);
 
-/// What a channel of passes shows, and the kernels' correction of it.
+/// What a channel of passes shows in a block, and the kernels' correction of it.
 struct Shown {
-  double mean = NAN, standard_error = 0.0, correction = 0.0;
+  double mean = 0.0, standard_error = 0.0, correction = 0.0;
   double sure = 0.0;  // standard errors that are no chance: more where these are known by few passes
 };
-/// In each of all blocks; NaN where it was not followed.
 using ShownLight = std::vector<std::array<Shown, 3>>;
 ShownLight shown_light(const MeansOfPasses& light, const MeansOfPasses& corrections);
 
-/// The relative square of the light that one way misses, but another shows in the same blocks, the mean of these: more
-/// than four standard errors, or ten where four passes say them, and twice the correction of either above what it
-/// shows.
+/// The relative square of the light that one way misses, but another shows in the same blocks, the mean of these: what
+/// the other shows beyond it by more than four standard errors of both (ten where four passes say them), and by twice
+/// the corrections of both.
 double unseen_by(const ShownLight& own, const ShownLight& other);
 
 }  // namespace vpm

@@ -9,35 +9,25 @@
 namespace vpm {
 namespace {
 
-constexpr double kFewest = 1000.0, kMore = 4.0;  // photons; as the number grows from pass to pass at first
-constexpr double kMostMore = 8.0;                // as it grows later
+constexpr double kFirst = 1000.0, kMore = 4.0;  // photons; as the number grows from pass to pass at first
+constexpr double kMostMore = 8.0;               // as it grows later
+constexpr double kMostAtFirst = 1e7;            // photons
 
-/// Which value of Scales is that of a pixel of a pass.
-size_t square_of(const SmallPass& pass, size_t i) {
-  return (pass.blocks[i / kBlockRays] * kBlockRays + i % kBlockRays) / kBlock;
-}
-
-/// The noise of a pass relative to the scales: of all blocks, of which each counts as the mean of its pixels; NaN where
-/// it was not followed.
+/// The noise of a pass relative to the scales: of blocks, of which each counts as the mean of its pixels.
 std::vector<double> noise_of(const std::vector<SmallPass>& passes, const Scales& scales) {
-  const SmallPass& first = passes.front();
-  std::vector<double> noise(kAllBlocks, NAN);
-  for (size_t block = 0; block < first.blocks.size(); ++block) {
-    double sum = 0.0;
-    for (size_t i = block * kBlockRays; i < (block + 1) * kBlockRays; ++i)
-      for (int channel = 0; channel < 3; ++channel) {
-        Moments values;
-        for (const SmallPass& pass : passes) values.add(double{pass.found[i].value[channel]});
-        const double scale = scales[square_of(first, i)][channel];
-        if (scale > 0.0) sum += values.variance() / scale;
-      }
-    noise[first.blocks[block]] = sum / (3.0 * kBlockRays);
-  }
+  std::vector<double> noise(kBlocks, 0.0);
+  for (size_t i = 0; i < kSmallRays; ++i)
+    for (int channel = 0; channel < 3; ++channel) {
+      Moments values;
+      for (const SmallPass& pass : passes) values.add(double{pass.found[i].value[channel]});
+      const double scale = scales[i / kBlock][channel];
+      if (scale > 0.0) noise[i / kBlockRays] += values.variance() / scale / (3.0 * kBlockRays);
+    }
   return noise;
 }
 
-/// That nearest, so that passes of about one size are of the same.
-double power_of_two(double value) { return std::exp2(std::round(std::log2(std::max(1.0, value)))); }
+/// A power of two, so that passes of about one size are of the same.
+double power_of_two_below(double value) { return std::exp2(std::floor(std::log2(std::max(1.0, value)))); }
 
 }  // namespace
 
@@ -46,54 +36,56 @@ WayPilot::WayPilot(const Scene& scene, const AutomaticSettings& automatic, const
       automatic_(&automatic),
       clock_(&clock),
       way_(std::move(way)),
-      has_photons_(info_of(way_.settings.integrator).power_of_noise != nullptr) {}
+      has_photons_(info_of(way_.settings.integrator).power_of_noise != nullptr),
+      chooses_photons_(has_photons_ && automatic.has("integrator.photons.emitted")) {}
 
 SmallPass WayPilot::render(const PassSize& size) {
   RenderSettings settings = way_.settings;
   settings.seed = ~settings.seed;  // what is chosen does not depend on the photons that the render will gather
   settings.radii = RadiusSchedule::constant;
   settings.photons.emitted = static_cast<uint64_t>(std::max(1.0, size.photons));
+  settings.photons.stored = 0;
   settings.caustics.emitted = std::min(settings.caustics.emitted, settings.photons.emitted);
-  if (size.radii != 1.0) scale_radii(radii_, size.radii, *scene_, settings);
-  return render_small(*scene_, settings, number_++, taken_, *clock_);
+  if (size.radii != 1.0) scale_radii(radii_, size.radii, settings);
+  return render_small(*scene_, settings, number_++, *clock_);
 }
 
 void WayPilot::find_size(double seconds) {
-  constexpr double kOfRadii = 20'000.0,
-                   kOfRadiiByTime = 2000.0;  // photons by which radii are found, at most, in a second
-  constexpr double kPassShare = 0.2, kShare = 0.5, kPassesToCome = 10.0;
+  constexpr double kOfRadii = 20'000.0, kOfRadiiByTime = 2000.0;  // photons that radii go by, at most, in a second
+  constexpr double kPassShare = 0.2, kShare = 0.5;
   const double begin = clock_->seconds();
   RenderSettings& settings = way_.settings;
-  if (has_photons_) {
-    const double photons = std::clamp(kOfRadiiByTime * seconds, 0.1 * kOfRadii, kOfRadii);
-    densities_ = densities_for_radii(static_cast<uint64_t>(photons), *scene_, *automatic_, settings);
-  }
-  if (densities_) radii_ = choose_radii(*scene_, *automatic_, *densities_, settings);
-  const auto given = static_cast<double>(settings.photons.emitted);
-  const double most = chooses_photons() || given == 0.0 ? double{kInfinity} : given;
+  const auto few = static_cast<uint64_t>(std::clamp(kOfRadiiByTime * seconds, 0.1 * kOfRadii, kOfRadii));
+  const auto densities = densities_for_radii(few, *scene_, *automatic_, settings);
+  if (densities) radii_ = choose_radii(*scene_, *automatic_, *densities, settings);
+  given_ = has_photons_ ? static_cast<double>(settings.photons.emitted) : 0.0;
+  if (has_photons_ && given_ == 0.0)
+    given_ = photons_of_pass(settings, map_densities(*scene_, settings, few).stored_per_photon);
+  const double most = chooses_photons_ ? kMostAtFirst : given_;
   SmallPass last;
-  for (photons_ = std::min(kFewest, most);; photons_ = std::min(kMore * photons_, most)) {
+  for (photons_ = std::min(kFirst, most);; photons_ = std::min(kMore * photons_, most)) {
     last = render({photons_, 1.0});
     const bool balanced = last.making >= last.seeing || photons_ == most;
     if (!has_photons_ || balanced || kMore * last.taken > kPassShare * seconds ||
         clock_->seconds() - begin > kShare * seconds)
       break;
   }
-  if (kMore * last.seeing * last.followed * kPassesToCome < kShare * seconds) taken_ = BlocksTaken::all;
-  if (!chooses_photons() || last.photons == 0.0) return;
-  photons_ = last.photons;
-  most_photons_ = std::max(kFewest, last.most_photons());
-  const double balanced = last.seeing / last.making * last.photons;
-  settings.photons.emitted = static_cast<uint64_t>(rounded(std::clamp(balanced, kFewest, most_photons_), 2));
-  if (densities_) radii_ = choose_radii(*scene_, *automatic_, *densities_, settings);
+  most_photons_ = std::max(kFirst, last.most_photons());
+  chooses_photons_ = chooses_photons_ && last.photons > 0.0;
+  if (chooses_photons_) {
+    const double balanced = last.making > 0.0 ? last.seeing / last.making * photons_ : photons_;
+    settings.photons.emitted = static_cast<uint64_t>(rounded(std::clamp(balanced, kFirst, most_photons_), 2));
+    given_ = static_cast<double>(settings.photons.emitted);
+    if (densities) radii_ = choose_radii(*scene_, *automatic_, *densities, settings);
+  }
+  widest_ = widest_factor(radii_, *scene_, settings);
 }
 
 PassSize WayPilot::usual() const {
-  const PassSize given{static_cast<double>(way_.settings.photons.emitted), 1.0};
-  if (!chooses_photons() || passes_.empty()) return given;
+  if (!chooses_photons_ || passes_.empty()) return {given_, 1.0};
   const PassModel model = times();
-  if (model.making.by == 0.0) return given;
-  return {std::clamp(model.seeing.at / model.making.by, kFewest, most_photons_), 1.0};
+  if (!(model.making.by > 0.0 && model.seeing.at > 0.0)) return {given_, 1.0};
+  return {std::clamp(model.seeing.at / model.making.by, kFirst, most_photons_), 1.0};
 }
 
 void WayPilot::add_pass(const PassSize& size) {
@@ -106,8 +98,8 @@ void WayPilot::add_pass(const PassSize& size) {
 }
 
 void WayPilot::add_passes(int count, const PassSize& size) {
-  photons_ = has_photons_ ? std::min(size.photons, kMostMore * photons_) : 0.0;
-  if (chooses_photons()) photons_ = power_of_two(photons_);
+  photons_ = std::min({size.photons, kMostMore * photons_, most_photons_});
+  if (chooses_photons_) photons_ = power_of_two_below(photons_);
   for (int i = 0; i < count; ++i) {
     add_pass({photons_, size.radii});
     if (photons_ >= kMore) add_pass({photons_ / kMore, size.radii});
@@ -116,11 +108,9 @@ void WayPilot::add_passes(int count, const PassSize& size) {
 
 double WayPilot::seconds_of_passes(const PassSize& size) const {
   const PassModel model = times();
-  const double photons = has_photons_ ? std::min(size.photons, kMostMore * photons_) : 0.0;
-  const double followed = passes_.front().made.front().followed;
-  const auto taken = [&](double of) {
-    return model.making(of) + followed * model.seeing(size.radii * size.radii * of);
-  };
+  const double photons = std::min({size.photons, kMostMore * photons_, most_photons_});
+  const double followed = passes_.front().made.front().followed, area = size.radii * size.radii;
+  const auto taken = [&](double of) { return model.making(of) + followed * model.seeing(area * of); };
   return taken(photons) + (photons >= kMore ? taken(photons / kMore) : 0.0);
 }
 
@@ -151,8 +141,8 @@ PassModel WayPilot::model(const Scales& scales) const {
   std::vector<PointOfLine> noise;
   for (const Passes& passes : passes_) {
     if (passes.made.size() < 2) continue;
-    const double of_photons = std::pow(passes.size.radii, -model.power_of_noise) / passes.size.photons;
-    noise.push_back({has_photons_ ? of_photons : 0.0, moments_of_known(noise_of(passes.made, scales)).mean(),
+    const double of_photons = std::pow(passes.size.radii, -model.power_of_noise) / std::max(1.0, passes.size.photons);
+    noise.push_back({has_photons_ ? of_photons : 0.0, moments_of(noise_of(passes.made, scales)).mean(),
                      static_cast<double>(passes.made.size() - 1)});
   }
   model.noise = rising_line(noise);
@@ -162,9 +152,8 @@ PassModel WayPilot::model(const Scales& scales) const {
 
 /// Corrections at other radii count as those at the first, each pass as it has photons.
 double WayPilot::bias2(const Scales& scales) const {
-  const SmallPass& first = passes_.front().made.front();
   Moments pixels;
-  for (size_t i = 0; i < first.found.size(); ++i)
+  for (size_t i = 0; i < kSmallRays; ++i)
     for (int channel = 0; channel < 3; ++channel) {
       double corrected = 0.0, corrected2 = 0.0, weights = 0.0, weights2 = 0.0;
       for (const Passes& passes : passes_) {
@@ -177,7 +166,7 @@ double WayPilot::bias2(const Scales& scales) const {
           weights2 += weight * weight;
         }
       }
-      const double pairs = weights * weights - weights2, scale = scales[square_of(first, i)][channel];
+      const double pairs = weights * weights - weights2, scale = scales[i / kBlock][channel];
       pixels.add(scale > 0.0 && pairs > 0.0 ? (corrected * corrected - corrected2) / pairs / scale : 0.0);
     }
   return std::max(0.0, pixels.mean());

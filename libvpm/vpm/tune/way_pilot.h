@@ -1,12 +1,9 @@
 // The pilot of one way to render: passes with more and with fewer photons, and with other radii.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "vpm/integrators/integrator.h"
-#include "vpm/integrators/photon_density.h"
-#include "vpm/integrators/small_pass.h"
 #include "vpm/tune/pass_model.h"
 #include "vpm/tune/shown_light.h"
 
@@ -19,7 +16,7 @@ struct PassSize {
 
 class WayPilot {
  public:
-  /// What it is given by reference must live as long.
+  /// Keeps references to scene, settings and clock.
   WayPilot(const Scene& scene, const AutomaticSettings& automatic, const Clock& clock, Way way);
 
   /// Makes passes of ever more photons for about so many seconds. Then finds the radii that are to be chosen for as
@@ -34,22 +31,25 @@ class WayPilot {
   /// What passes take, and nothing of their errors.
   PassModel times() const;
   PassModel model(const Scales& scales) const;
-  /// The noise of the passes with most photons in each of all blocks; NaN where none was followed.
+  /// The noise of the passes with most photons in each block.
   std::vector<double> noise_of_blocks(const Scales& scales) const;
   /// The means of squares of pixels.
   const MeansOfPasses& squares() const { return squares_; }
   ShownLight light() const { return shown_light(blocks_, corrections_); }
-  /// Rays that were followed through a block, in all passes.
-  double rays_of_block() const { return double{kBlockRays} * blocks_.passes() * way_.settings.samples_per_pixel; }
+  /// Of each block, in all passes.
+  double pixels_of_block() const { return static_cast<double>(kBlockRays * blocks_.means()[0][0].count()); }
 
   /// Its settings are those that passes began with.
   const Way& way() const { return way_; }
-  /// As many photons as take as long as rays do without any, by the passes so far, where their number is to be chosen.
+  /// As many photons as take as long as rays that gather none, by the passes so far, where their number is to be
+  /// chosen.
   PassSize usual() const;
-  bool chooses_photons() const { return has_photons_ && automatic_->has("integrator.photons.emitted"); }
+  bool chooses_photons() const { return chooses_photons_; }
   /// No more fit into maps of 1.3 GB.
   double most_photons() const { return most_photons_; }
   const std::vector<Choice>& radii() const { return radii_; }
+  /// The factor by which all of these may be wider; see widest_factor().
+  double widest() const { return widest_; }
 
  private:
   struct Passes {
@@ -65,13 +65,12 @@ class WayPilot {
   const AutomaticSettings* automatic_;
   const Clock* clock_;
   Way way_;
-  bool has_photons_;
+  bool has_photons_, chooses_photons_;
   std::vector<Choice> radii_{};
-  std::optional<MapDensities> densities_{};
-  BlocksTaken taken_ = BlocksTaken::quarter;
-  double most_photons_ = kInfinity;
-  int number_ = 0;        // of the next pass
-  double photons_ = 0.0;  // of the largest pass so far
+  double widest_ = 1.0;
+  double most_photons_ = 0.0, given_ = 0.0;  // of a pass; by the settings
+  int number_ = 0;                           // of the next pass
+  double photons_ = 0.0;                     // of the last passes
   std::vector<Passes> passes_{};
   MeansOfPasses squares_{kBlock}, blocks_{kBlockRays}, corrections_{kBlockRays, &KernelEstimate::correction};
 };
