@@ -70,7 +70,54 @@ GridPlan read_grid(TableReader& table, const GridRole& role, const GridValues* g
       Interpolation::trilinear);
   request.clamp_negative = table.flag("clamp_negative", false);
   request.object_to_world = read_transform(table, "transform");
-  return {role, std::move(request), given};
+  return {role, std::move(request), given, table, "path"};
+}
+
+/// The grid that an emission or its temperature names: of the file of the density, unless it names another.
+GridPlan read_source_grid(TableReader& table, const std::string& medium, const std::vector<GridPlan>& densities,
+                          const GivenParts& given) {
+  const GridRole& role = kGridRoles[1];
+  const GridValues* values = given.grid({medium, std::string(role.name)});
+  GridRequest request;
+  if (!densities.empty()) request = densities.front().request;
+  request.from_level_set = request.density = false;
+  request.name = table.string("grid");
+  if (table.has("path"))
+    request.path = table.path("path");
+  else if (!values && request.path.empty())
+    table.fail("grid", "the grid has no file: the medium is homogeneous", "add path = \"FILE.vdb\"");
+  return {role, std::move(request), values, table, "grid"};
+}
+
+void read_temperature(TableReader& emission, Medium& medium, std::vector<GridPlan>& grids, const GivenParts& given) {
+  TableReader table = *emission.table("temperature", "'temperature' of " + emission.title());
+  grids.push_back(read_source_grid(table, medium.name, grids, given));
+  medium.emission->blackbody = true;
+  medium.emission->scale = table.number("scale", kPositive, 1.0f);
+  medium.emission->offset = table.number("offset", kAny, 0.0f);
+  medium.emission->colour = Rgb(1.0f);
+  table.finish();
+}
+
+void read_emission(TableReader& medium_table, Medium& medium, std::vector<GridPlan>& grids, const GivenParts& given) {
+  std::optional<TableReader> table = medium_table.table("emission", "'emission' of " + medium_table.title());
+  if (!table) return;
+  const bool radiance = table->has("radiance"), power = table->has("power"), temperature = table->has("temperature");
+  if (radiance + power + temperature != 1)
+    table->fail_here(table->title() + (radiance + power + temperature == 0 ? " does not say what is emitted"
+                                                                           : " says in several ways what is emitted"),
+                     "give radiance (W/(m^2 sr), of a thick layer), power (W/m^3, whatever the density), or "
+                     "temperature = { grid = \"temperature\" }");
+  MediumEmission& emission = medium.emission.emplace();
+  if (temperature) {
+    read_temperature(*table, medium, grids, given);
+  } else {
+    emission.meaning = power ? MediumEmission::Meaning::volume : MediumEmission::Meaning::thermal;
+    emission.colour = power ? read_emitted(*table, "power") / (4.0f * kPi) : read_emitted(*table, "radiance");
+    if (table->has("grid")) grids.push_back(read_source_grid(*table, medium.name, grids, given));
+  }
+  emission.colour *= medium_table.number("emission_scale", kPositive, 1.0f);
+  table->finish();
 }
 
 MediumPlan read_medium(TableReader table, const std::string& name, const Names& names, const GivenParts& given) {
@@ -93,6 +140,7 @@ MediumPlan read_medium(TableReader table, const std::string& name, const Names& 
   }
   if (!is_finite(medium.sigma_t))
     table.fail_here("the extinction of " + table.title() + " is too large for single precision");
+  read_emission(table, medium, grids, given);
   table.finish();
   return {std::move(part), std::move(table), std::move(grids)};
 }

@@ -56,8 +56,9 @@ void read_camera_section(TableReader& root, const Names& media, ScenePlan& plan)
 SceneFacts facts_of(const ScenePlan& plan) {
   SceneFacts facts;
   for (const MediumPlan& medium : plan.media) {
-    facts.grids |= !medium.grids.empty();  // not read yet
+    for (const GridPlan& grid : medium.grids) facts.grids |= grid.role.grid == &Medium::grid;  // not read yet
     facts.scattering_media |= medium.part.medium.scatters();
+    facts.emitting_media |= medium.part.medium.emits();
   }
   if (plan.world_medium != kVacuum) facts.add_world(plan.media[plan.world_medium].part.medium);
   for (const ShapePlan& shape : plan.shapes)
@@ -141,8 +142,8 @@ SceneParts parts_of(ScenePlan& plan) {
   root.fail_here(error.wrong(), error.right());
 }
 
-void load_grid_of(Medium& medium, const GridPlan& plan, const TableReader& table, const GridRequest& request,
-                  const GridLoader& load, RenderJob& job) {
+void load_grid_of(Medium& medium, const GridPlan& plan, const GridRequest& request, const GridLoader& load,
+                  RenderJob& job) {
   try {
     LoadedGrid grid =
         plan.given ? density_of(*plan.given, request) : load({medium.name, std::string(plan.role.name)}, request);
@@ -153,7 +154,7 @@ void load_grid_of(Medium& medium, const GridPlan& plan, const TableReader& table
       job.notes.push_back("medium '" + medium.name + "': " + std::to_string(grid.clamped_values) +
                           " negative densities set to 0, as clamp_negative asks");
   } catch (const InputError& error) {
-    table.fail(plan.given ? "grid" : "path", error.what());
+    plan.table.fail(plan.given ? "grid" : plan.key, error.what());
   }
 }
 
@@ -163,8 +164,9 @@ void load_grids(const ScenePlan& plan, const GridLoader& load, SceneParts& parts
     const MediumPlan& medium = plan.media[i];
     for (const GridPlan& grid : medium.grids) {
       GridRequest request = grid.request;
-      request.has_bounding_shape = !is_boxed(parts, static_cast<MediumId>(i));
-      load_grid_of(parts.media[i].medium, grid, medium.table, request, load, job);
+      const bool density = grid.role.grid == &Medium::grid;
+      request.has_bounding_shape = density && !is_boxed(parts, static_cast<MediumId>(i));
+      load_grid_of(parts.media[i].medium, grid, request, load, job);
     }
   }
 }

@@ -28,6 +28,8 @@ struct GridPlan {
   const GridRole& role;  // of kGridRoles
   GridRequest request;
   const GridValues* given;  // in the place of its file; null: the file is to be read
+  TableReader table;        // that names it ...
+  const char* key;          // ... under this
 };
 /// A medium without its grids.
 struct MediumPlan {

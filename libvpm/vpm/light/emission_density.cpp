@@ -44,7 +44,8 @@ EmissionDensity emission_density(const Light& light, const Box& scene, const Vec
                 },
                 [&](const EnvironmentMap& l) {  // rounding may put a direction beside its texel
                   return D{std::max(1e-30, double{l.image->pdf(-travel)}), 1.0 / area_across(scene, travel), true};
-                }},
+                },
+                [](const VolumeLight&) { return D{}; }},
       light);
 }
 
@@ -59,7 +60,7 @@ bool can_be_hit(const Light& light) {
   return std::visit(
       Overloads{[](const UnseenLight auto&) { return false; }, [](const AreaLight auto&) { return true; },
                 [](const DirectionalLight&) { return false; }, [](const ConstantEnvironment&) { return true; },
-                [](const EnvironmentMap&) { return true; }},
+                [](const EnvironmentMap&) { return true; }, [](const VolumeLight&) { return true; }},
       light);
 }
 

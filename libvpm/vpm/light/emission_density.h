@@ -15,6 +15,7 @@ struct EmissionDensity {
 
 /// The densities with which emit() starts photons that travel along `travel` (unit), from a point of the light with the
 /// outward normal `normal` (unit, without meaning for lights that have none). `scene` is the box that emit() is given.
+/// None of a VolumeLight.
 EmissionDensity emission_density(const Light& light, const Box& scene, const Vec3& normal, const Vec3& travel);
 
 /// The density of sample_towards() from a point at `place`, in the measure of EmissionDensity::place.

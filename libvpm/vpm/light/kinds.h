@@ -16,6 +16,7 @@ Rgb power_of(const MeshLight& light, const Box& scene);
 Rgb power_of(const DirectionalLight& light, const Box& scene);
 Rgb power_of(const ConstantEnvironment& light, const Box& scene);
 Rgb power_of(const EnvironmentMap& light, const Box& scene);
+Rgb power_of(const VolumeLight& light, const Box& scene);
 
 // emit()
 Emission emit_from(const PointLight& light, const Box& scene, const EmissionNumbers& u);
@@ -28,6 +29,7 @@ Emission emit_from(const MeshLight& light, const Box& scene, const EmissionNumbe
 Emission emit_from(const DirectionalLight& light, const Box& scene, const EmissionNumbers& u);
 Emission emit_from(const ConstantEnvironment& light, const Box& scene, const EmissionNumbers& u);
 Emission emit_from(const EnvironmentMap& light, const Box& scene, const EmissionNumbers& u);
+Emission emit_from(const VolumeLight& light, const Box& scene, const EmissionNumbers& u);
 
 // sample_towards()
 std::optional<Incident> incident_from(const PointLight& light, const Vec3& point, Rng& rng);
@@ -40,6 +42,7 @@ std::optional<Incident> incident_from(const MeshLight& light, const Vec3& point,
 std::optional<Incident> incident_from(const DirectionalLight& light, const Vec3& point, Rng& rng);
 std::optional<Incident> incident_from(const ConstantEnvironment& light, const Vec3& point, Rng& rng);
 std::optional<Incident> incident_from(const EnvironmentMap& light, const Vec3& point, Rng& rng);
+std::optional<Incident> incident_from(const VolumeLight& light, const Vec3& point, Rng& rng);
 
 // incident_pdf(), for the lights that can be seen
 float pdf_of(const QuadLight& light, const Vec3& point, const SeenLight& seen);
@@ -48,6 +51,7 @@ float pdf_of(const SphereLight& light, const Vec3& point, const SeenLight& seen)
 float pdf_of(const MeshLight& light, const Vec3& point, const SeenLight& seen);
 float pdf_of(const ConstantEnvironment& light, const Vec3& point, const SeenLight& seen);
 float pdf_of(const EnvironmentMap& light, const Vec3& point, const SeenLight& seen);
+float pdf_of(const VolumeLight& light, const Vec3& point, const SeenLight& seen);
 
 // light_place(), for the lights that are not at infinity
 LightPlace place_of(const PointLight& light);
@@ -57,6 +61,7 @@ LightPlace place_of(const QuadLight& light);
 LightPlace place_of(const DiscLight& light);
 LightPlace place_of(const SphereLight& light);
 LightPlace place_of(const MeshLight& light);
+LightPlace place_of(const VolumeLight& light);
 
 // draw_light_point(), for the lights whose points are drawn uniformly by area
 LightPoint draw_place(const QuadLight& light, Rng& rng);

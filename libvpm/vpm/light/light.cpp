@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "vpm/base/overloads.h"
+#include "vpm/light/emitting_volume.h"
 #include "vpm/light/kinds.h"
 
 namespace vpm {
@@ -33,7 +34,8 @@ std::optional<LightPoint> draw_light_point(const Light& light, Rng& rng) {
                 [](const SpotLight& l) { return Point(LightPoint{l.position}); },
                 [](const SphereLight& l) { return Point(LightPoint{l.center}); },
                 [&](const AreaLight auto& l) { return Point(draw_place(l, rng)); },
-                [](const BeamLight&) { return Point(); }, [](const DistantLight auto&) { return Point(); }},
+                [](const BeamLight&) { return Point(); }, [](const DistantLight auto&) { return Point(); },
+                [](const VolumeLight&) { return Point(); }},
       light);
 }
 
@@ -52,14 +54,16 @@ float incident_pdf(const Light& light, const Vec3& point, const SeenLight& seen)
                               [&](const AreaLight auto& l) { return pdf_of(l, point, seen); },
                               [](const DirectionalLight&) { return 0.0f; },
                               [&](const ConstantEnvironment& l) { return pdf_of(l, point, seen); },
-                              [&](const EnvironmentMap& l) { return pdf_of(l, point, seen); }},
+                              [&](const EnvironmentMap& l) { return pdf_of(l, point, seen); },
+                              [&](const VolumeLight& l) { return pdf_of(l, point, seen); }},
                     light);
 }
 
 size_t light_memory_bytes(const Light& light) {
   return std::visit(
       Overloads{[](const MeshLight& l) { return l.mesh->memory_bytes(); },
-                [](const EnvironmentMap& l) { return l.image->memory_bytes(); }, [](const auto&) { return size_t{0}; }},
+                [](const EnvironmentMap& l) { return l.image->memory_bytes(); },
+                [](const VolumeLight& l) { return l.volume->memory_bytes(); }, [](const auto&) { return size_t{0}; }},
       light);
 }
 
@@ -70,7 +74,7 @@ std::string_view light_kind(const Light& light) {
                 [](const DiscLight&) { return "disc"; }, [](const SphereLight&) { return "sphere"; },
                 [](const MeshLight&) { return "mesh"; }, [](const DirectionalLight&) { return "directional"; },
                 [](const ConstantEnvironment&) { return "constant environment"; },
-                [](const EnvironmentMap&) { return "environment map"; }},
+                [](const EnvironmentMap&) { return "environment map"; }, [](const VolumeLight&) { return "medium"; }},
       light);
 }
 
@@ -84,14 +88,15 @@ bool is_grey(const Light& light) {
                               [](const MeshLight& l) { return is_grey(l.radiance); },
                               [](const DirectionalLight& l) { return is_grey(l.irradiance); },
                               [](const ConstantEnvironment& l) { return is_grey(l.radiance); },
-                              [](const EnvironmentMap& l) { return l.image->grey(); }},
+                              [](const EnvironmentMap& l) { return l.image->grey(); },
+                              [](const VolumeLight& l) { return l.volume->grey(); }},
                     light);
 }
 
 bool is_infinite(const Light& light) {
   return std::visit(
       Overloads{[](const UnseenLight auto&) { return false; }, [](const AreaLight auto&) { return false; },
-                [](const DistantLight auto&) { return true; }},
+                [](const DistantLight auto&) { return true; }, [](const VolumeLight&) { return false; }},
       light);
 }
 
@@ -101,7 +106,7 @@ std::optional<Rgb> even_radiance(const Light& light) {
       Overloads{[](const UnseenLight auto&) { return Radiance(); }, [](const AreaLight auto&) { return Radiance(); },
                 [](const DirectionalLight&) { return Radiance(); },
                 [](const ConstantEnvironment& l) { return Radiance(l.radiance); },
-                [](const EnvironmentMap&) { return Radiance(); }},
+                [](const EnvironmentMap&) { return Radiance(); }, [](const VolumeLight&) { return Radiance(); }},
       light);
 }
 
@@ -109,7 +114,8 @@ std::optional<LightPlace> light_place(const Light& light) {
   using Place = std::optional<LightPlace>;
   return std::visit(Overloads{[](const UnseenLight auto& l) { return Place(place_of(l)); },
                               [](const AreaLight auto& l) { return Place(place_of(l)); },
-                              [](const DistantLight auto&) { return Place(); }},
+                              [](const DistantLight auto&) { return Place(); },
+                              [](const VolumeLight& l) { return Place(place_of(l)); }},
                     light);
 }
 
@@ -118,7 +124,8 @@ Rgb environment_radiance(const Light& light, const Vec3& direction) {
       Overloads{[](const UnseenLight auto&) { return Rgb(0.0f); }, [](const AreaLight auto&) { return Rgb(0.0f); },
                 [](const DirectionalLight&) { return Rgb(0.0f); },
                 [](const ConstantEnvironment& l) { return l.radiance; },
-                [&](const EnvironmentMap& l) { return l.image->radiance(direction); }},
+                [&](const EnvironmentMap& l) { return l.image->radiance(direction); },
+                [](const VolumeLight&) { return Rgb(0.0f); }},
       light);
 }
 
@@ -126,7 +133,7 @@ Rgb surface_radiance(const Light& light, const Vec3& normal, const Vec3& travel)
   if (glm::dot(normal, travel) >= 0.0f) return Rgb(0.0f);
   return std::visit(
       Overloads{[](const UnseenLight auto&) { return Rgb(0.0f); }, [](const AreaLight auto& l) { return l.radiance; },
-                [](const DistantLight auto&) { return Rgb(0.0f); }},
+                [](const DistantLight auto&) { return Rgb(0.0f); }, [](const VolumeLight&) { return Rgb(0.0f); }},
       light);
 }
 
@@ -181,7 +188,8 @@ std::string problem_of(const Light& light) {
                   return first_of({direction_problem(l.direction), emitted_problem("irradiance", l.irradiance)});
                 },
                 [](const ConstantEnvironment& l) { return emitted_problem("radiance", l.radiance); },
-                [](const EnvironmentMap& l) { return std::string(l.image ? "" : "it lacks its picture"); }},
+                [](const EnvironmentMap& l) { return std::string(l.image ? "" : "it lacks its picture"); },
+                [](const VolumeLight&) { return std::string("a medium that emits is no light of a list"); }},
       light);
 }
 

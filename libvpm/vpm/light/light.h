@@ -17,6 +17,8 @@
 
 namespace vpm {
 
+class EmittingVolume;
+
 struct PointLight {
   Vec3 position{0.0f};  // m
   Rgb intensity{1.0f};  // W/sr
@@ -97,10 +99,17 @@ struct EnvironmentMap {
   std::shared_ptr<const ImageEnvironment> image;
 };
 
-using Light = std::variant<PointLight, SpotLight, BeamLight, QuadLight, DiscLight, SphereLight, MeshLight,
-                           DirectionalLight, ConstantEnvironment, EnvironmentMap>;
+/// What a medium emits (medium/emission.h). Its radiance along rays, and the power of its photons, take the scene: see
+/// path/emission_along.h and photon/emission.h.
+struct VolumeLight {
+  int medium = 0;  // in Scene::media
+  std::shared_ptr<const EmittingVolume> volume;
+};
 
-// Three classes of lights; each kind of light belongs to one.
+using Light = std::variant<PointLight, SpotLight, BeamLight, QuadLight, DiscLight, SphereLight, MeshLight,
+                           DirectionalLight, ConstantEnvironment, EnvironmentMap, VolumeLight>;
+
+// Three classes of lights; each kind of light belongs to one, or is a VolumeLight.
 template <class L, class... Kinds>
 concept OneOf = (std::same_as<L, Kinds> || ...);
 /// Lights that no ray can hit.
@@ -146,7 +155,8 @@ struct EmissionNumbers {
 EmissionNumbers draw_emission_numbers(Rng& rng);
 
 /// One emitted photon: its ray, and the power that it would carry if it were the light's only photon. The expectation
-/// of that power is light_power(); for all lights except EnvironmentMap every photon carries exactly light_power().
+/// of that power is light_power(); for all lights except EnvironmentMap every photon carries exactly light_power(). Not
+/// for a VolumeLight.
 /// Photons of area lights start just off the surface, because area lights are shapes of the scene that the photons
 /// could meet. Photons of lights at infinity start where they enter the box.
 struct Emission {
@@ -168,8 +178,8 @@ struct Incident {
   float pdf = 0.0f;            // of the direction, 1/sr; 0 where the light has one direction only
   Vec3 normal{0.0f};           // of an area light where the light comes from, unit, outward
 };
-/// Samples the light that reaches `point`; nothing if none can. A point inside a sphere light receives nothing.
-/// Occlusion by other parts of a mesh light is not tested.
+/// Samples the light that reaches `point`; nothing if none can, and of a VolumeLight (see sample_direct()). A point
+/// inside a sphere light receives nothing. Occlusion by other parts of a mesh light is not tested.
 std::optional<Incident> sample_towards(const Light& light, const Vec3& point, Rng& rng);
 
 /// A point of a light.

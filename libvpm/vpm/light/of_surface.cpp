@@ -30,7 +30,7 @@ Light light_of(TriangleMesh mesh, const Rgb& radiance) {
 
 bool is_surface(const Light& light) {
   return std::visit(Overloads{[](const UnseenLight auto&) { return false; }, [](const AreaLight auto&) { return true; },
-                              [](const DistantLight auto&) { return false; }},
+                              [](const DistantLight auto&) { return false; }, [](const VolumeLight&) { return false; }},
                     light);
 }
 

@@ -1,6 +1,8 @@
 // Density integrals along rays, and the ranges of coefficients.
 #include "vpm/medium/medium.h"
 
+#include <cmath>
+
 namespace vpm {
 
 DensityIntegral density_integral(const Medium& medium, const Ray& ray, const Interval& interval) {
@@ -30,6 +32,13 @@ std::string problem_of(const Medium& medium) {
   for (int c = 0; c < 3; ++c)
     if (!(medium.sigma_s[c] >= 0.0f && medium.sigma_s[c] <= medium.sigma_t[c]))
       return "its scattering coefficient must be at least 0 and at most the extinction coefficient";
+  if (medium.emission) {
+    const Rgb& colour = medium.emission->colour;
+    if (!is_finite(colour) || std::min({colour.r, colour.g, colour.b}) < 0.0f || colour == Rgb(0.0f))
+      return "its emission must be at least 0 and finite, and not 0 in all channels";
+    if (!(medium.emission->scale >= 0.0 && std::isfinite(medium.emission->scale + medium.emission->offset)))
+      return "the temperature of its emission must have a scale of at least 0, and a finite offset";
+  }
   return std::visit([](const auto& function) { return problem_of_numbers(function); }, medium.phase);
 }
 

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "vpm/base/vec.h"
+#include "vpm/medium/emission.h"
 #include "vpm/medium/grid/density_grid.h"
 #include "vpm/medium/phase/phase.h"
 
@@ -58,9 +60,12 @@ struct Medium {
   Rgb sigma_t{0.0f};  // extinction coefficient at density 1, 1/m; >= sigma_s
   Phase phase;
   std::shared_ptr<const DensityGrid> grid;  // null: density 1 everywhere
+  std::optional<MediumEmission> emission{};
+  std::shared_ptr<const DensityGrid> emission_grid{};  // of its source; null: 1 everywhere
 
   /// Does the medium scatter light?
   bool scatters() const { return sigma_s != Rgb(0.0f); }
+  bool emits() const { return emission.has_value(); }
   bool homogeneous() const { return grid == nullptr; }
   float density(const Vec3& p) const { return grid ? grid->density(p) : 1.0f; }
   [[gnu::always_inline]] DensityAlong density_along(const Ray& ray) const { return {grid.get(), ray}; }
@@ -79,7 +84,7 @@ struct Medium {
   /// everywhere.
   MediumProperties properties(const Vec3& /*place*/) const { return {sigma_s, sigma_t, phase}; }
   Rgb albedo() const { return MediumProperties{sigma_s, sigma_t, phase}.albedo(); }
-  bool grey() const { return is_grey(sigma_s) && is_grey(sigma_t); }
+  bool grey() const { return is_grey(sigma_s) && is_grey(sigma_t); }  // by itself; see is_grey(Light) of its emission
 
   /// Calls visit(const DensityPiece&) along the ray until it returns false. Returns the number of look-ups.
   template <class Visit>
@@ -110,7 +115,8 @@ struct GridRole {
   std::string_view name;
   std::shared_ptr<const DensityGrid> Medium::*grid;
 };
-inline constexpr std::array kGridRoles{GridRole{"density", &Medium::grid}};
+inline constexpr std::array kGridRoles{GridRole{"density", &Medium::grid},
+                                       GridRole{"emission", &Medium::emission_grid}};
 
 /// Names a grid of a scene: a medium has at most one of each role.
 struct GridName {

@@ -4,7 +4,8 @@
 #include <cassert>
 
 #include "vpm/base/counters.h"
-#include "vpm/path/segments.h"
+#include "vpm/light/emitting_volume.h"
+#include "vpm/path/emission_along.h"
 
 namespace vpm {
 namespace {
@@ -83,14 +84,39 @@ Rgb visibility_of_place(const ShadowRays& rays, Ray ray, float distance, MediumI
   return transmittance_to_target({rays, ray, medium, -1, shape, distance, ray.at(distance)});
 }
 
+namespace {
+
+bool is_behind(const Receiver& receiver, const Vec3& direction) {
+  return receiver.normal != Vec3(0.0f) && glm::dot(receiver.normal, direction) <= 0.0f;
+}
+
+/// A place of the medium gives the direction; what comes from there is all that the medium emits along the ray
+/// [Simon2017; Villemin2013].
+DirectSample sample_medium(const ShadowRays& rays, const VolumeLight& light, const Receiver& receiver) {
+  const double choice = rays.rng.uniform_double(), x = rays.rng.uniform_double();
+  const Vec3 towards = light.volume->draw(choice, x, rays.rng.uniform2()).position - receiver.point;
+  const float distance = glm::length(towards);
+  if (!(distance > 0.0f)) return {};
+  const Ray ray{receiver.point, towards / distance};
+  if (is_behind(receiver, ray.direction)) return {};
+  DirectSample sample{ray.direction, Rgb(0.0f), static_cast<float>(light.volume->direction_density(ray))};
+  if (!(sample.pdf > 0.0f)) return {};
+  each_emission(rays.scene, ray, receiver.medium, rays.counters, [&](MediumId medium, const Rgb& radiance) {
+    if (medium == light.medium) sample.irradiance += radiance / sample.pdf;
+  });
+  return sample;
+}
+
+}  // namespace
+
 DirectSample sample_direct(const ShadowRays& rays, int light, const Receiver& receiver,
                            const std::optional<LightPoint>& from) {
   const Light& source = rays.scene.lights[light];
+  if (const auto* volume = std::get_if<VolumeLight>(&source)) return sample_medium(rays, *volume, receiver);
   const std::optional<Incident> incident =
       from ? sample_towards(source, *from, receiver.point, rays.rng) : sample_towards(source, receiver.point, rays.rng);
   if (!incident) return {};
-  const bool from_everywhere = receiver.normal == Vec3(0.0f);
-  if (!from_everywhere && glm::dot(receiver.normal, incident->direction) <= 0.0f) return {};
+  if (is_behind(receiver, incident->direction)) return {};
   DirectSample sample{incident->direction, incident->irradiance, incident->pdf};
   if (is_black(sample.irradiance)) return {};
   sample.irradiance *=

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "vpm/base/warp.h"
+#include "vpm/light/emitting_volume.h"
 #include "vpm/path/direct_light.h"
 
 namespace vpm {
@@ -56,8 +58,28 @@ void EmissionPoint::set(int dimension, double value) {
 
 EmissionPoint draw_emission_point(Rng& rng) { return {rng.uniform_double(), draw_emission_numbers(rng)}; }
 
+namespace {
+
+/// Only as many start at a place as its mean emission is of the bound, so that each stands for as much, but for its
+/// colour. None start outside the medium.
+PathState emit_from_medium(const Scene& scene, const PickedLight& light, const EmissionNumbers& u) {
+  const auto& [number, volume] = std::get<VolumeLight>(scene.lights[light.number]);
+  const EmittingVolume::Place place = volume->draw(u.choice, u.face, u.place);
+  const Ray ray{place.position, uniform_sphere(u.direction)};
+  PathState photon{ray, medium_of_ray(scene, scene.light_medium[light.number], ray), Rgb(0.0f)};
+  if (photon.medium != number) return photon;
+  const Rgbd emitted = emission_coefficient(scene.media[number], place.position);
+  const double mean = (emitted.r + emitted.g + emitted.b) / 3.0;
+  if (place.rest * place.bound < mean) photon.throughput = Rgb(volume->bound() / mean / light.probability * emitted);
+  return photon;
+}
+
+}  // namespace
+
 PathState emit_photon(const Scene& scene, const EmissionPoint& point) {
   const PickedLight light = pick_light(scene, point.light);
+  if (std::holds_alternative<VolumeLight>(scene.lights[light.number]))
+    return emit_from_medium(scene, light, point.numbers);
   const Emission emission = emit(scene.lights[light.number], scene.bounds, point.numbers);
   return {emission.ray, medium_of_ray(scene, scene.light_medium[light.number], emission.ray),
           emission.power / light.probability};

@@ -20,7 +20,8 @@ struct EmissionPoint {
 EmissionPoint draw_emission_point(Rng& rng);
 
 /// The photon that the numbers yield: a light is chosen by power and emits. Its power is what it stands for if it is
-/// the only one; the mean over uniform points is the power of all lights.
+/// the only one; the mean over uniform points is the power of all lights. A photon of a medium may have none, as places
+/// are drawn by bounds of what is emitted there.
 PathState emit_photon(const Scene& scene, const EmissionPoint& point);
 
 }  // namespace vpm

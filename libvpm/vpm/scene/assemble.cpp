@@ -2,10 +2,12 @@
 #include "vpm/scene/assemble.h"
 
 #include "vpm/base/overloads.h"
+#include "vpm/light/emitting_volume.h"
 #include "vpm/light/of_surface.h"
 #include "vpm/scene/build.h"
 #include "vpm/scene/check_parts.h"
 #include "vpm/scene/check_scene.h"
+#include "vpm/surface/locate.h"
 
 namespace vpm {
 namespace {
@@ -54,13 +56,29 @@ double lost_voxels(const DensityGrid& grid) {
   return voxels > kNegligible ? voxels : 0.0;
 }
 
+/// Where emission does not go by density, the box of a medium holds the grids of both.
+void add_support_of_emission(const Medium& medium, Vec3d& lo, Vec3d& hi) {
+  if (!medium.emission_grid || medium.emission->meaning == MediumEmission::Meaning::thermal) return;
+  const DensityGrid& emission = *medium.emission_grid;
+  const Mat4d to_density = glm::inverse(medium.grid->frame().index_to_world) * emission.frame().index_to_world;
+  const Vec3d a = emission.support_lo(), b = emission.support_hi();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d p(corner & 1 ? b.x : a.x, corner & 2 ? b.y : a.y, corner & 4 ? b.z : a.z);
+    const Vec3d index(to_density * glm::dvec4(p, 1.0));
+    lo = glm::min(lo, index);
+    hi = glm::max(hi, index);
+  }
+}
+
 /// The box around a grid's support, as a boundary with the medium inside. Around it there is no density, so that a wide
 /// box may be larger by what its faces are off: else clouds at its ends would lie outside.
 ShapePart box_of(const SceneParts& parts, MediumId id) {
   const MediumPart& medium = parts.media[static_cast<size_t>(id)];
   const DensityGrid& grid = *medium.medium.grid;
   const double margin = lost_voxels(grid);
-  TriangleMesh mesh = box_mesh(grid.support_lo() - margin, grid.support_hi() + margin);
+  Vec3d lo = grid.support_lo(), hi = grid.support_hi();
+  add_support_of_emission(medium.medium, lo, hi);
+  TriangleMesh mesh = box_mesh(lo - margin, hi + margin);
   transform_mesh(grid.frame().index_to_world, mesh);
   ShapePart box;
   box.name = "box of " + medium.medium.name;
@@ -123,6 +141,45 @@ void add_shape_part(ShapePart part, AssembledScene& result) {
   scene.lights.push_back(
       std::visit([&](auto& surface) { return light_of(std::move(surface), *part.emission); }, part.surface));
   result.light_names.push_back(part.name);
+}
+
+Box bounds_of_surface(const Surface& surface) {
+  const auto of_mesh = [](const TriangleMesh& mesh) {
+    Box box;
+    for (const Vec3& position : mesh.positions) box.add(position);
+    return box;
+  };
+  return std::visit(Overloads{of_mesh, [&](const QuadMesh& quad) { return of_mesh(quad.mesh); },
+                              [](const auto& shape) { return bounds_of(shape); }},
+                    surface);
+}
+
+/// The box around the shapes that have the medium on one of their sides.
+Box box_around(const SceneParts& parts, MediumId id) {
+  Box box;
+  for (const ShapePart& shape : parts.shapes)
+    if (shape.media && (shape.media->inside == id || shape.media->outside == id)) {
+      const Box bounds = bounds_of_surface(shape.surface);
+      box.add(bounds.lo);
+      box.add(bounds.hi);
+    }
+  return box;
+}
+
+/// Media that emit are lights, behind all others. One that fills no shape is none.
+void add_emitting_media(const std::vector<Box>& around, AssembledScene& result) {
+  Scene& scene = result.scene;
+  for (size_t i = 0; i < scene.media.size(); ++i) {
+    const Medium& medium = scene.media[i];
+    if (!medium.emits() || around[i].empty()) continue;
+    try {
+      scene.lights.push_back(
+          VolumeLight{static_cast<int>(i), std::make_shared<const EmittingVolume>(medium, around[i])});
+    } catch (const InputError& error) {
+      throw PartError({PartKind::medium, i}, error.what());
+    }
+    result.light_names.push_back(medium.name);
+  }
 }
 
 void add_shapes(SceneParts& parts, const Boxes& boxes, AssembledScene& result) {
@@ -193,8 +250,11 @@ AssembledScene assemble(SceneParts parts) {
   const Boxes boxes = add_boxes(parts);
   AssembledScene result;
   Scene& scene = result.scene;
+  std::vector<Box> around;
+  for (size_t i = 0; i < parts.media.size(); ++i) around.push_back(box_around(parts, static_cast<MediumId>(i)));
   add_lists(parts, result);
   add_shapes(parts, boxes, result);
+  add_emitting_media(around, result);
   scene.camera_medium = parts.camera_medium ? *parts.camera_medium : medium_around(scene, scene.camera.position);
   try {
     finish(scene);

@@ -25,6 +25,9 @@ void check_media(const SceneParts& parts) {
     const MediumPart& medium = parts.media[i];
     const std::string problem = problem_of(medium.medium);
     if (!problem.empty()) throw PartError({PartKind::medium, i}, problem);
+    if (medium.medium.emits() && parts.world_medium == static_cast<MediumId>(i))
+      throw PartError({PartKind::world}, "'" + medium.medium.name + "' emits: it would fill the world with light",
+                      "name it as a shape's 'inside'");
     if (medium.medium.name == "vacuum")
       throw PartError({PartKind::medium, i}, "no medium can be named 'vacuum': that is the empty space");
     if (!medium.outside) continue;
@@ -121,9 +124,12 @@ void check_lights(const SceneParts& parts) {
                       "remove [world], or the directional and environment lights");
   }
   const bool emits =
-      std::any_of(parts.shapes.begin(), parts.shapes.end(), [](const ShapePart& s) { return s.emission.has_value(); });
+      std::any_of(parts.shapes.begin(), parts.shapes.end(),
+                  [](const ShapePart& s) { return s.emission.has_value(); }) ||
+      std::any_of(parts.media.begin(), parts.media.end(), [](const MediumPart& m) { return m.medium.emits(); });
   if (parts.lights.empty() && !emits)
-    throw PartError({PartKind::scene}, "the scene has no light", "add [[lights]], or a shape with emission");
+    throw PartError({PartKind::scene}, "the scene has no light",
+                    "add [[lights]], or a shape or a medium with emission");
 }
 
 void check_camera(const SceneParts& parts) {

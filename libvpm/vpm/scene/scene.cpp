@@ -6,6 +6,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/rng.h"
+#include "vpm/light/emitting_volume.h"
 
 namespace vpm {
 
@@ -81,6 +82,8 @@ bool is_cut(const Scene& scene, const Box& box) {
 
 /// The medium that all photons of a light start in: one where no boundary cuts the light.
 MediumId medium_of(const Scene& scene, const Light& light) {
+  if (const auto* volume = std::get_if<VolumeLight>(&light); volume && !is_cut(scene, volume->volume->bounds()))
+    return volume->medium;
   const std::optional<LightPlace> place = light_place(light);
   if (!place) return scene.world_medium;
   return is_cut(scene, place->bounds) ? kSeveralMedia : medium_around(scene, place->point);
@@ -116,6 +119,10 @@ void finish(Scene& scene) {
   for (Material& material : scene.materials)
     set_facet_loss(material, scene.facet_losses.emplace_back(facet_loss_of(material)).get());
   for (const Light& light : scene.lights) scene.light_medium.push_back(medium_of(scene, light));
+  scene.medium_light.assign(scene.media.size(), -1);
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    if (const auto* volume = std::get_if<VolumeLight>(&scene.lights[i]))
+      scene.medium_light[static_cast<size_t>(volume->medium)] = static_cast<int>(i);
 }
 
 MediumId medium_at(const Scene& scene, const Vec3& point) {

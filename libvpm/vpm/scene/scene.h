@@ -1,6 +1,7 @@
 // The immutable scene: geometry with its materials and media, lights, camera.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -56,7 +57,11 @@ struct Scene {
   std::vector<std::shared_ptr<const FacetLoss>> facet_losses;  // of materials of microfacets, which point to them
   // That a light's photons start in; kSeveralMedia where a boundary cuts the light, or runs through its point.
   std::vector<MediumId> light_medium;
+  std::vector<int> medium_light;  // the number of the light that a medium is; -1 where it emits nothing
 
+  bool has_emitting_media() const {
+    return std::any_of(medium_light.begin(), medium_light.end(), [](int light) { return light >= 0; });
+  }
   /// The material of a hit shape: what it is, with the mean of a reflectance that a texture gives.
   const Material& material_of(const Hit& hit) const { return materials[shapes[hit.shape].material]; }
 };

@@ -8,6 +8,7 @@ namespace vpm {
 void SceneFacts::add(const Medium& medium) {
   grids |= !medium.homogeneous();
   scattering_media |= medium.scatters();
+  emitting_media |= medium.emits();
 }
 
 void SceneFacts::add_world(const Medium& medium) {

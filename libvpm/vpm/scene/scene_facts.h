@@ -8,6 +8,7 @@ namespace vpm {
 struct SceneFacts {
   bool grids = false;             // media of grids
   bool scattering_media = false;  // media that scatter
+  bool emitting_media = false;    // media that emit
   bool rough_surfaces = false;    // surfaces that store photons; mirrors and glass do not
   bool endless = false;           // the medium of the world, which scatters ...
   bool endless_flights = false;   // ... and does not attenuate one of the channels

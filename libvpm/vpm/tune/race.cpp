@@ -123,12 +123,14 @@ double doubt_of_ratio(const std::vector<double>& a, const std::vector<double>& b
 }
 
 /// Drops the ways that are surely behind the first, unless that one shows next to nothing. Returns ", NAME" of each.
-std::string drop_behind(std::vector<Runner>& runners) {
-  constexpr double kAlike = 1.5, kSure = 2.0;  // times, which no pilot tells apart; standard errors
-  const auto is_behind = [&first = runners.front()](const Runner& other) {
+std::string drop_behind(int round, std::vector<Runner>& runners) {
+  constexpr double kAlike = 1.5, kAlikeAtFirst = 4.0;  // times, which no pilot tells apart; by its first few passes
+  constexpr double kSure = 2.0;                        // standard errors
+  const auto is_behind = [&first = runners.front(), round](const Runner& other) {
     if (std::isinf(other.error) || first.error > kNothingShown)
       return std::isinf(other.error) && !std::isinf(first.error);
-    return other.error > first.error * (kAlike + kSure * doubt_of_ratio(first.noise, other.noise));
+    return other.error >
+           first.error * ((round == 0 ? kAlikeAtFirst : kAlike) + kSure * doubt_of_ratio(first.noise, other.noise));
   };
   std::string names;
   for (size_t i = runners.size(); i-- > 1;)
@@ -209,9 +211,10 @@ Winner race(const Scene& scene, const AutomaticSettings& automatic, const std::v
   std::string behind;
   for (int round = 0; round < kMostRounds; ++round) {
     compare(begin + seconds - clock.seconds(), runners);
-    behind = drop_behind(runners) + behind;
+    behind = drop_behind(round, runners) + behind;
     if (!go_on(begin + (runners.size() > 1 ? kPilotShare : kAloneShare) * seconds, clock, runners)) break;
   }
+  behind = drop_behind(kMostRounds, runners) + behind;
   const bool nothing_shown = runners.front().error > kNothingShown;
   std::stable_sort(runners.begin(), runners.end(), [](const Runner& a, const Runner& b) { return a.turn < b.turn; });
   if (nothing_shown) runners.front().best = runners.front().pilot.usual();

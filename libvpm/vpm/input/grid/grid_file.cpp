@@ -384,7 +384,8 @@ LoadedGrid load_grid(const GridRequest& request) {
     const openvdb::TreeBase& tree = grid->tree();
     if (tree.activeVoxelCount() == 0 && grid->background() == 0.0f) return vacuum(source);
     LoadedGrid loaded = make_density(source, grid->tree());
-    if (std::string doubt = doubt_of_name(entry.name); !doubt.empty()) loaded.notes.push_back(std::move(doubt));
+    if (std::string doubt = doubt_of_name(entry.name); request.density && !doubt.empty())
+      loaded.notes.push_back(std::move(doubt));
     return loaded;
   } catch (const InputError&) {
     throw;

@@ -55,6 +55,7 @@ struct GridRequest {
   bool from_level_set = false;      // turn a level set into a fog volume: 1 inside, falling to 0 at the surface
   bool clamp_negative = false;      // read negative values as 0
   bool has_bounding_shape = false;  // the medium is bounded by a shape, so that a background may be other than 0
+  bool density = true;              // else what a medium emits, or its temperature
   Mat4d object_to_world{1.0};       // applied after the grid's own transform
 
   bool operator==(const GridRequest&) const = default;

@@ -55,6 +55,8 @@ void describe_combined(RenderSettings& s, Description& d) {
 }
 
 void check_combined(const RenderSettings& s, const SceneFacts& facts) {
+  refuse_if(facts.emitting_media, "integrator.type", "techniques are not combined where media emit",
+            "write \"photon-map\" or \"path\"");
   const TechniqueSet& techniques = s.combined.techniques;
   refuse_if(facts.endless_flights && techniques.has(Technique::short_beams), "integrator.techniques",
             "flights have no end in a channel that the medium of the world does not attenuate",
@@ -92,6 +94,7 @@ std::vector<Way> ways_of_combined(const Scene& scene, const AutomaticSettings& a
 }
 
 double power_of_noise_of_merges(const RenderSettings& settings) {
+  if (!merges(settings.combined.techniques)) return 0.0;
   return settings.combined.techniques.has(Technique::short_beams) ? 1.0 : 2.0;
 }
 

@@ -5,6 +5,7 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/path/direct_light.h"
+#include "vpm/path/emission_along.h"
 #include "vpm/path/follow.h"
 #include "vpm/path/path_weight.h"
 #include "vpm/surface/shading.h"
@@ -16,13 +17,14 @@ namespace {
 class TracedPath {
  public:
   TracedPath(const PathContext& context, Rng& rng, EyeCounters& counters)
-      : c_(context), rng_(rng), counters_(counters) {}
+      : c_(context), rng_(rng), counters_(counters), media_emit_(context.scene.has_emitting_media()) {}
 
   bool see(const Event& event, const PathState& from, PathState& at) {
     if (!is_finite(at.throughput)) {  // no roulette: that would end it as if it were black
       radiance_ = at.throughput;
       return false;
     }
+    if (media_emit_) add_emission(from);
     weight_.meet(weight(at.throughput), event);
     if (event.kind == EventKind::collision) return collide(at);
     if (event.kind == EventKind::surface) return meet_surface(event.hit, from.ray.origin, at);
@@ -103,6 +105,16 @@ class TracedPath {
                  mis_weight(light.pdf, scattered.pdf);
   }
 
+  /// Adds what media emit along a flight's ray, up to the next surface, wherever the flight ends.
+  void add_emission(const PathState& from) {
+    each_emission(c_.scene, from.ray, from.medium, counters_.walk, [&](MediumId medium, const Rgb& radiance) {
+      if (is_black(radiance)) return;
+      const int light = c_.scene.medium_light[medium];
+      radiance_ +=
+          from.throughput * radiance * mis_weight_of_path(light, from.ray.origin, {.direction = from.ray.direction});
+    });
+  }
+
   /// Adds the environment seen by a ray that left `from`.
   void see_environment(const Vec3& from, const PathState& at) {
     for (size_t i = 0; i < c_.scene.lights.size(); ++i) {
@@ -130,7 +142,7 @@ class TracedPath {
 
   /// The part that the path has in the light it ran into: all where no shadow ray could have found it.
   float mis_weight_of_path(int light, const Vec3& from, const SeenLight& seen) const {
-    if (std::isinf(scatter_pdf_)) return 1.0f;
+    if (std::isinf(scatter_pdf_) || light < 0) return 1.0f;
     const auto probability = static_cast<float>(c_.scene.light_probability[light]);
     const float light_pdf = probability * incident_pdf(c_.scene.lights[light], from, seen);
     return scatter_pdf_ / (scatter_pdf_ + light_pdf);
@@ -139,6 +151,7 @@ class TracedPath {
   const PathContext& c_;
   Rng& rng_;
   EyeCounters& counters_;
+  const bool media_emit_;
   PathWeight weight_;
   float scatter_pdf_ = kInfinity;  // of the present direction, 1/sr; infinite for the camera's and specular ones
   Rgb radiance_{0.0f};

@@ -83,6 +83,7 @@ class EyePath {
 
   /// Attenuates by the segment, and goes on from what ends it. False where the branch ends.
   bool end_segment() {
+    see_medium();
     at_.state.throughput *= segment_->transmittance(work_);
     if (is_black(at_.state.throughput)) return false;
     if (!met_) {
@@ -121,6 +122,15 @@ class EyePath {
 
   /// What radiance counts for that arrives at the present place.
   Rgb seen() const { return at_.state.throughput * at_.radiance_scale; }
+
+  /// Adds what the medium emits along the segment.
+  void see_medium() {
+    const Medium* medium = segment_->around();
+    if (!medium || !medium->emits()) return;
+    const EmittedLight light = emitted_along(*medium, segment_->ray, segment_->interval, work_.counters.walk.lookups);
+    segment_->set_integral(light.integral);
+    radiance_ += seen() * light.radiance;
+  }
 
   void see_environment() {
     for (const Light& light : c_.scene.lights)

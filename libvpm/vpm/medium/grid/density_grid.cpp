@@ -272,6 +272,20 @@ bool DensityGrid::is_positive(const Box& world) const {
       {Vec3i(glm::clamp(from, Vec3d(0.0), last + 1.0)), Vec3i(glm::clamp(to, Vec3d(-1.0), last))});
 }
 
+float DensityGrid::largest(const Vec3d& lo, const Vec3d& hi) const {
+  constexpr double kRounding = 1e-6;  // voxels
+  constexpr double kMany = 4096.0;
+  const double reach = frame_.interpolation == Interpolation::nearest ? 0.5 : 1.0;  // of a voxel's value
+  const Vec3d first = glm::ceil(lo + kRounding - reach), last = glm::floor(hi - kRounding + reach);
+  const Vec3d count = last - first + 1.0;
+  if (count.x * count.y * count.z > kMany) return max_density_;
+  float most = 0.0f;
+  for (double z = first.z; z <= last.z; ++z)
+    for (double y = first.y; y <= last.y; ++y)
+      for (double x = first.x; x <= last.x; ++x) most = std::max(most, density_at(Vec3d(x, y, z) - lattice_lo_));
+  return most;
+}
+
 float DensityGrid::density_in_boxes(const Vec3d& p) const {
   const bool inside = glm::all(glm::greaterThanEqual(p, Vec3d(0.0))) && glm::all(glm::lessThan(p, lattice_size_));
   if (!inside) return frame_.background;

@@ -81,6 +81,8 @@ class DensityGrid {
   /// Is the density positive everywhere in a box of the world? Whole bricks decide: the answer may be no only because
   /// the density is zero outside the box, in a brick that the box reaches into.
   bool is_positive(const Box& world) const;
+  /// The largest density in a box of index coordinates, or more: of many voxels it is that of all.
+  float largest(const Vec3d& lo, const Vec3d& hi) const;
   /// Calls visit(const DensityPiece&) for the pieces of the ray, in order, until it returns false. Bricks of zero
   /// density are skipped. Returns the number of cells and uniform bricks that were read ("look-ups").
   template <class Visit>

@@ -22,11 +22,12 @@
 #include "vpm/integrators/photon_map/surface/surface_shadow_rays.h"
 #include "vpm/integrators/settings.h"
 #include "vpm/path/walk.h"
+#include "vpm/scene/scene_facts.h"
 
 namespace vpm {
 
 /// What final gathering asks of other settings.
-void check_final_gather(const RenderSettings& settings);
+void check_final_gather(const RenderSettings& settings, const SceneFacts& facts);
 
 class FinalGather final : public SurfaceEstimator {
  public:
