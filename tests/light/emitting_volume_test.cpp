@@ -86,6 +86,23 @@ TEST(EmittingVolume, BoundsHoldOnTwoLattices) {
   expect_mean(survive, (power.r + power.g + power.b) / 3.0 / volume.bound(), kFalseAlarms);
 }
 
+/// By an offset all of the density glows, also where the grid of temperatures has ended.
+TEST(EmittingVolume, ReachesAsFarAsDensityWhereAllIsHot) {
+  Medium medium = emitting_grids(0.9f, 0.0f);
+  medium.emission_grid = make_grid(centered_frame(2, 0.1), lattice_noise);
+  medium.emission->blackbody = true;
+  medium.emission->scale = 300.0;
+  medium.emission->offset = 1500.0;
+  double sum = 0.0;
+  constexpr int kSteps = 80;
+  const double step = 2.25 / kSteps;  // from voxel -1 to voxel 8
+  for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
+    const Vec3d at(i % kSteps, i / kSteps % kSteps, i / kSteps / kSteps);
+    sum += emission_coefficient(medium, Vec3(Vec3d(-1.0, 0.25, 1.0) + step * (at + 0.5))).g * step * step * step;
+  }
+  EXPECT_NEAR(EmittingVolume(medium, {}).power().g / (4.0 * kPiD * sum), 1.0, 0.01);
+}
+
 /// From within and from without: uniform directions see it with the density that integrates to 1, and drawn ones with
 /// that whose mean inverse is the solid angle of all that it can be seen in.
 TEST(EmittingVolume, DirectionDensityIsThatOfDrawnDirections) {

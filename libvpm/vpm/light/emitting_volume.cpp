@@ -42,8 +42,10 @@ GridFrame cell_of(const Box& box) {
   return cells;
 }
 
+/// Where the medium emits outside the grid of its source, too, that of the density decides.
 GridFrame frame_of(const Medium& medium, const Box& around) {
-  const DensityGrid* grid = medium.emission_grid ? medium.emission_grid.get() : medium.grid.get();
+  const bool ends = medium.emission_grid && medium.emission->source(0.0) == Rgbd(0.0);
+  const DensityGrid* grid = ends ? medium.emission_grid.get() : medium.grid.get();
   if (!grid || grid->frame().background != 0.0f) return cell_of(around);
   return cells_of(grid->frame(), medium.emission->blackbody);
 }

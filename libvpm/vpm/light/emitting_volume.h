@@ -12,8 +12,9 @@ namespace vpm {
 
 class EmittingVolume {
  public:
-  /// Of a medium that emits. The cells are those of the grid of its source, else of its density; without either, the
-  /// whole box `around` (m) is one. Throws InputError where nothing is emitted anywhere.
+  /// Of a medium that emits. The cells are those of the grid of its source, else, or where the source is not 0 outside
+  /// it, of its density; without either, the whole box `around` (m) is one. Throws InputError where nothing is emitted
+  /// anywhere.
   EmittingVolume(const Medium& medium, const Box& around);
 
   /// What would be emitted if the medium filled all cells, W: by Gauss points along each axis of each cell, two, which
