@@ -37,6 +37,14 @@ TEST(EmittingVolume, OfAnEvenMediumFillsTheBoxAround) {
   EXPECT_EQ(volume.bounds().hi, Vec3(3.0f, 4.0f, 5.0f));
 }
 
+/// By volume it fills its shape, whatever the density.
+TEST(EmittingVolume, ByVolumeFillsTheBoxAround) {
+  Medium medium = emitting_grids(0.9f, 0.0f);
+  medium.emission_grid = nullptr;
+  medium.emission->meaning = MediumEmission::Meaning::volume;
+  EXPECT_NEAR(EmittingVolume(medium, {Vec3(-10.0f), Vec3(10.0f)}).power().g, 4.0 * kPiD * 8000.0, 1.0);
+}
+
 TEST(EmittingVolume, ThatEmitsNothingIsRefused) {
   Medium medium = make_medium(nullptr, Rgb(2.0f), 1.0f);
   medium.emission = MediumEmission{.colour = Rgb(1.0f)};

@@ -121,7 +121,33 @@ TEST(Emission, OfTrilinearFieldsIsThatOfTheIntegral) {
   }
 }
 
-/// Grids on two lattices: against a sum over many short steps.
+/// The same by a sum over many short steps.
+double by_small_steps(const Medium& medium, const Ray& ray) {
+  constexpr int kSteps = 200'000;
+  double sum = 0.0, depth = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double step = 6.0 / kSteps;
+    const Vec3 at = ray.at(static_cast<float>((i + 0.5) * step));
+    const double half = 0.5 * step * double{medium.sigma_t.g} * double{medium.grid->density(at)};
+    depth += half;
+    sum += step * emission_coefficient(medium, at).g * std::exp(-depth);
+    depth += half;
+  }
+  return sum;
+}
+
+/// By an offset all of the density glows, also where the grid of temperatures has no bricks.
+TEST(Emission, ByAnOffsetReachesAsFarAsDensity) {
+  Medium medium = emitting_grids(0.9f, 1.6f);
+  medium.emission_grid = make_grid(centered_frame(3, 0.2), lattice_noise);
+  medium.emission->blackbody = true;
+  medium.emission->scale = 400.0;
+  medium.emission->offset = 1500.0;
+  const Ray ray{Vec3(-2.0f, -0.7f, 0.1f), glm::normalize(Vec3(1.0f, 0.9f, 0.95f))};
+  EXPECT_NEAR(radiance_along(medium, ray, {0.0f, 6.0f}).g / by_small_steps(medium, ray), 1.0, 2e-4);
+}
+
+/// Grids on two lattices.
 TEST(Emission, OfTwoLatticesIsThatOfSmallSteps) {
   Medium medium = emitting_grids(0.9f, 1.6f);
   GridFrame turned = centered_frame(4, 0.31);
@@ -131,15 +157,7 @@ TEST(Emission, OfTwoLatticesIsThatOfSmallSteps) {
   const Ray ray{Vec3(-2.0f, -0.7f, 0.1f), glm::normalize(Vec3(1.0f, 0.9f, 0.95f))};
   for (const auto meaning : {MediumEmission::Meaning::thermal, MediumEmission::Meaning::volume}) {
     medium.emission->meaning = meaning;
-    constexpr int kSteps = 200'000;
-    double sum = 0.0, depth = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-      const double step = 6.0 / kSteps, t = (i + 0.5) * step;
-      const double density = double{medium.grid->density(ray.at(static_cast<float>(t)))};
-      depth += 0.5 * step * 2.5 * density;
-      sum += step * emission_coefficient(medium, ray.at(static_cast<float>(t))).g * std::exp(-depth);
-      depth += 0.5 * step * 2.5 * density;
-    }
+    const double sum = by_small_steps(medium, ray);
     EXPECT_GT(sum, 0.05);
     EXPECT_NEAR(radiance_along(medium, ray, {0.0f, 6.0f}).g / sum, 1.0, 2e-4);
   }

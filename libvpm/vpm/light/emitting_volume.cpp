@@ -42,8 +42,9 @@ GridFrame cell_of(const Box& box) {
   return cells;
 }
 
-/// Where the medium emits outside the grid of its source, too, that of the density decides.
+/// Where the medium emits outside the grid of its source, too, that of the density decides, if anything does.
 GridFrame frame_of(const Medium& medium, const Box& around) {
+  if (!medium.emission_grid && medium.emission->meaning == MediumEmission::Meaning::volume) return cell_of(around);
   const bool ends = medium.emission_grid && medium.emission->source(0.0) == Rgbd(0.0);
   const DensityGrid* grid = ends ? medium.emission_grid.get() : medium.grid.get();
   if (!grid || grid->frame().background != 0.0f) return cell_of(around);

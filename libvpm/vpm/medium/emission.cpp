@@ -15,12 +15,16 @@ namespace {
 
 constexpr double kOpaque = 25.0;  // optical depth
 
+/// The density integral of a part of a piece, m; 0 of none.
+double integral_of(const DensityPiece* density, double t0, double t1) {
+  return density ? density->integral(t1 - density->t0) - density->integral(t0 - density->t0) : 0.0;
+}
+
 /// A part of a ray within one piece of the source, and of the density or none.
 class Part {
  public:
   Part(const Medium& medium, const DensityPiece* density, const DensityPiece& source, double before)
-      : medium_(medium),
-        emission_(*medium.emission),
+      : emission_(*medium.emission),
         sigma_a_(medium.sigma_t - medium.sigma_s),
         sigma_t_(medium.sigma_t),
         density_(density),
@@ -35,10 +39,6 @@ class Part {
     if (source_.uniform() && (!density_ || density_->uniform())) return even_emission(t0, t1);
     return by_points(t0, t1, t0, kMostHalvings);
   }
-  double integral(double t0, double t1) const {
-    if (!density_) return 0.0;
-    return density_->integral(t1 - density_->t0) - density_->integral(t0 - density_->t0);
-  }
 
  private:
   static constexpr int kMostHalvings = 12;
@@ -48,7 +48,7 @@ class Part {
 
   Rgbd even_source(double t0, double t1) const {
     const Rgbd source = emission_.source(source_.c0);
-    const double crossed = integral(t0, t1);
+    const double crossed = integral_of(density_, t0, t1);
     Rgbd sum(0.0);
     for (int c = 0; c < 3; ++c)
       if (sigma_a_[c] > 0.0f)
@@ -71,7 +71,7 @@ class Part {
   Rgbd by_points(double t0, double t1, double begin, int halvings) const {
     constexpr double kMostDepth = 1.0, kMostHotter = 1.15;
     const double largest = max_channel(sigma_t_);
-    bool rough = largest * integral(t0, t1) > kMostDepth;
+    bool rough = largest * integral_of(density_, t0, t1) > kMostDepth;
     if (emission_.blackbody) {
       const auto kelvin = [&](double t) { return std::max(kColdestSeen, emission_.kelvin(value(t))); };
       const std::array<double, 3> three{kelvin(t0), kelvin(0.5 * (t0 + t1)), kelvin(t1)};
@@ -92,7 +92,7 @@ class Part {
       const Rgbd source = emission_.source(value(t));
       if (source == Rgbd(0.0)) continue;
       const double density = density_ ? std::max(0.0, density_->density(t - density_->t0)) : 0.0;
-      const double crossed = before_ + integral(begin, t);
+      const double crossed = before_ + integral_of(density_, begin, t);
       const bool thermal = emission_.meaning == MediumEmission::Meaning::thermal;
       for (int c = 0; c < 3; ++c)
         sum[c] += weight * (thermal ? sigma_a_[c] * density : 1.0) * source[c] * kept(c, crossed);
@@ -100,7 +100,6 @@ class Part {
     return sum;
   }
 
-  const Medium& medium_;
   const MediumEmission& emission_;
   const Rgb sigma_a_, sigma_t_;
   const DensityPiece* density_;
@@ -108,17 +107,28 @@ class Part {
   const double before_;
 };
 
-/// The pieces of a grid along a ray; one of the value 1 where there is none.
-uint32_t find_pieces(const DensityGrid* grid, const Ray& ray, const Interval& interval,
+/// The pieces of a grid along a ray; one of the value 1 where there is none. Where `whole`, those of the value 0 in
+/// between, too.
+uint32_t find_pieces(const DensityGrid* grid, const Ray& ray, const Interval& interval, bool whole,
                      std::vector<DensityPiece>& pieces) {
   pieces.clear();
-  const auto add = [&](const DensityPiece& piece) {
-    pieces.push_back(piece);
-    return true;
+  if (!grid) {
+    pieces.push_back({interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
+    return 0;
+  }
+  double end = interval.t0;
+  const auto fill_to = [&](double t) {
+    if (whole && t > end) pieces.push_back({end, t, 0.0, 0.0, 0.0, 0.0});
+    end = t;
   };
-  if (grid) return grid->visit_pieces(ray, interval, add);
-  add({interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
-  return 0;
+  const uint32_t lookups = grid->visit_pieces(ray, interval, [&](const DensityPiece& piece) {
+    fill_to(piece.t0);
+    pieces.push_back(piece);
+    end = piece.t1;
+    return true;
+  });
+  fill_to(interval.t1);
+  return lookups;
 }
 
 }  // namespace
@@ -136,8 +146,9 @@ Rgbd emission_coefficient(const Medium& medium, const Vec3& place) {
 
 EmittedLight emitted_along(const Medium& medium, const Ray& ray, const Interval& interval, uint64_t& lookups) {
   static thread_local std::vector<DensityPiece> densities, sources;
-  count(lookups, find_pieces(medium.grid.get(), ray, interval, densities));
-  count(lookups, find_pieces(medium.emission_grid.get(), ray, interval, sources));
+  const bool endless = medium.emission->source(0.0) != Rgbd(0.0);
+  count(lookups, find_pieces(medium.grid.get(), ray, interval, false, densities));
+  count(lookups, find_pieces(medium.emission_grid.get(), ray, interval, endless, sources));
   const double opaque =
       kOpaque / std::max(1e-30, double{std::min({medium.sigma_t.r, medium.sigma_t.g, medium.sigma_t.b})});
   EmittedLight light;
@@ -158,9 +169,9 @@ EmittedLight emitted_along(const Medium& medium, const Ray& ray, const Interval&
     if (s < sources.size()) next = in_source ? sources[s].t1 : sources[s].t0;
     if (d < densities.size()) next = std::min(next, in_density ? densities[d].t1 : densities[d].t0);
     const DensityPiece* density = in_density ? &densities[d] : nullptr;
-    const Part part(medium, density, in_source ? sources[s] : densities[d], light.integral);
-    if (in_source && light.integral < opaque) sum += part.emitted(at, next);
-    light.integral += part.integral(at, next);
+    if (in_source && light.integral < opaque)
+      sum += Part(medium, density, sources[s], light.integral).emitted(at, next);
+    light.integral += integral_of(density, at, next);
     at = next;
   }
   light.radiance = Rgb(sum);

@@ -66,11 +66,12 @@ PathState emit_from_medium(const Scene& scene, const PickedLight& light, const E
   const auto& [number, volume] = std::get<VolumeLight>(scene.lights[light.number]);
   const EmittingVolume::Place place = volume->draw(u.choice, u.face, u.place);
   const Ray ray{place.position, uniform_sphere(u.direction)};
-  PathState photon{ray, medium_of_ray(scene, scene.light_medium[light.number], ray), Rgb(0.0f)};
-  if (photon.medium != number) return photon;
+  PathState photon{ray, number, Rgb(0.0f)};
   const Rgbd emitted = emission_coefficient(scene.media[number], place.position);
   const double mean = (emitted.r + emitted.g + emitted.b) / 3.0;
-  if (place.rest * place.bound < mean) photon.throughput = Rgb(volume->bound() / mean / light.probability * emitted);
+  if (place.rest * place.bound >= mean || medium_of_ray(scene, kSeveralMedia, ray) != number) return photon;
+  // The bound is exceeded at most by what rounding moves a place.
+  photon.throughput = Rgb(volume->bound() / std::min(mean, place.bound) / light.probability * emitted);
   return photon;
 }
 

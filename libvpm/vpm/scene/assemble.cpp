@@ -166,12 +166,15 @@ Box box_around(const SceneParts& parts, MediumId id) {
   return box;
 }
 
-/// Media that emit are lights, behind all others. One that fills no shape is none.
+/// Media that emit are lights, behind all others.
 void add_emitting_media(const std::vector<Box>& around, AssembledScene& result) {
   Scene& scene = result.scene;
   for (size_t i = 0; i < scene.media.size(); ++i) {
     const Medium& medium = scene.media[i];
-    if (!medium.emits() || around[i].empty()) continue;
+    if (!medium.emits()) continue;
+    if (around[i].empty())
+      throw PartError({PartKind::medium, i}, "'" + medium.name + "' emits, but fills no shape",
+                      "name it as a shape's 'inside', or leave out its emission");
     try {
       scene.lights.push_back(
           VolumeLight{static_cast<int>(i), std::make_shared<const EmittingVolume>(medium, around[i])});

@@ -6,7 +6,6 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/rng.h"
-#include "vpm/light/emitting_volume.h"
 
 namespace vpm {
 
@@ -82,8 +81,7 @@ bool is_cut(const Scene& scene, const Box& box) {
 
 /// The medium that all photons of a light start in: one where no boundary cuts the light.
 MediumId medium_of(const Scene& scene, const Light& light) {
-  if (const auto* volume = std::get_if<VolumeLight>(&light); volume && !is_cut(scene, volume->volume->bounds()))
-    return volume->medium;
+  if (std::holds_alternative<VolumeLight>(light)) return kSeveralMedia;  // its cells may lie anywhere
   const std::optional<LightPlace> place = light_place(light);
   if (!place) return scene.world_medium;
   return is_cut(scene, place->bounds) ? kSeveralMedia : medium_around(scene, place->point);

@@ -282,7 +282,12 @@ float DensityGrid::largest(const Vec3d& lo, const Vec3d& hi) const {
   float most = 0.0f;
   for (double z = first.z; z <= last.z; ++z)
     for (double y = first.y; y <= last.y; ++y)
-      for (double x = first.x; x <= last.x; ++x) most = std::max(most, density_at(Vec3d(x, y, z) - lattice_lo_));
+      for (double x = first.x; x <= last.x; ++x) {
+        Vec3d at(x, y, z);
+        if (frame_.interpolation == Interpolation::trilinear)
+          at = glm::clamp(at, lo, hi);  // largest at corners of cells
+        most = std::max(most, density_at(at - lattice_lo_));
+      }
   return most;
 }
 

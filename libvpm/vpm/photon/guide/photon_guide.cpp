@@ -120,6 +120,7 @@ PhotonGuide learn_guide(const Scene& scene, const DistanceStrategy& strategy, co
   PhotonGuide guide{std::move(importance.map), std::move(importance.directions), {}, 0.0};
   const auto score = [&](const EmissionPoint& point, Rng& rng) {
     PathState state = emit_photon(scene, point);
+    if (is_black(state.throughput)) return 0.0f;
     WalkCounters counters;
     const Event event = next_event(scene, strategy, state, rng, counters);
     if (event.kind == EventKind::escape || !is_finite(state.throughput)) return 0.0f;
