@@ -133,6 +133,20 @@ TEST(EmittingMedia, PhotonsCarryTheirPower) {
   EXPECT_EQ(power[2].mean(), 0.0);
 }
 
+/// Values of 1.5 are no kelvin: the message says what they reach, and which keys change that.
+TEST(EmittingMedia, ThatAreColdAreRefusedWithTheirTemperature) {
+  SceneParts parts = parts_with({});
+  parts.media[0].medium = emitting_grids(0.9f, 1.6f);
+  parts.media[0].medium.emission->blackbody = true;
+  try {
+    assemble(std::move(parts));
+    FAIL() << "it was taken";
+  } catch (const PartError& error) {
+    EXPECT_NE(error.wrong().find("emits nothing"), std::string::npos) << error.wrong();
+    EXPECT_NE(error.right().find("reach 1.5 K"), std::string::npos) << error.right();
+  }
+}
+
 /// A ball of glass in the fire holds no fire.
 TEST(EmittingMedia, DoNotEmitWhereAnotherMediumIs) {
   SceneParts parts = parts_with(emitting(Rgb(1.0f), Rgb(0.0f), Rgb(1.0f)));

@@ -73,11 +73,8 @@ TEST(EmittingVolume, DrawsPlacesWhereLightIsEmitted) {
 /// Temperatures on another, turned lattice: bounds hold for these, too.
 TEST(EmittingVolume, BoundsHoldOnTwoLattices) {
   Medium medium = emitting_grids(0.9f, 0.0f);
-  GridFrame turned = centered_frame(5, 0.31);
-  turned.index_to_world = glm::translate(Mat4d(1.0), Vec3d(0.3, 1.4, 2.1)) *
-                          glm::rotate(Mat4d(1.0), 0.7, Vec3d(0.3, 1.0, -0.4)) * turned.index_to_world;
   medium.emission_grid =
-      make_grid(turned, [](int x, int y, int z) { return 1.0 / (1.0 + 0.05 * (x * x + y * y + z * z)); });
+      turned_grid(5, [](int x, int y, int z) { return 1.0 / (1.0 + 0.05 * (x * x + y * y + z * z)); });
   medium.emission->blackbody = true;
   medium.emission->scale = 2200.0;
   const EmittingVolume volume(medium, {});

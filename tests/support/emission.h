@@ -17,6 +17,15 @@ inline std::shared_ptr<const DensityGrid> linear_in_z(double at_zero, double at_
   return make_grid(frame, [&](int, int, int z) { return z == 0 ? at_zero : at_two; });
 }
 
+/// Values on a lattice that is turned against that of emitting_grids(), about its middle.
+template <class F>
+std::shared_ptr<const DensityGrid> turned_grid(int reach, F&& values) {
+  GridFrame frame = centered_frame(reach, 0.31);
+  frame.index_to_world = glm::translate(Mat4d(1.0), Vec3d(0.3, 1.4, 2.1)) *
+                         glm::rotate(Mat4d(1.0), 0.7, Vec3d(0.3, 1.0, -0.4)) * frame.index_to_world;
+  return make_grid(frame, values);
+}
+
 /// The grids of S9e: 8^3 voxels of 0.25 m, of which the first lies at (-0.75, 0.5, 1.25) m.
 inline Medium emitting_grids(float sigma_a, float sigma_s) {
   GridFrame frame;

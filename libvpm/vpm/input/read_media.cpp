@@ -85,7 +85,7 @@ GridPlan read_source_grid(TableReader& table, const std::string& medium, const s
   if (table.has("path"))
     request.path = table.path("path");
   else if (!values && request.path.empty())
-    table.fail("grid", "the grid has no file: the medium is homogeneous", "add path = \"FILE.vdb\"");
+    table.fail("grid", "the grid has no file: that of the density has none to share", "add path = \"FILE.vdb\"");
   return {role, std::move(request), values, table, "grid"};
 }
 

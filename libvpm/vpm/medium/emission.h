@@ -35,8 +35,8 @@ struct EmittedLight {
 };
 /// The integral of emission coefficient times transmittance. Exact where the source is even, or nothing attenuates;
 /// else by Gauss's five points in pieces of an optical depth of at most 1 in which the temperature changes by at most
-/// 15 %, to about 1e-4 of the largest source in a piece, usually far less. What lies behind an optical depth of 25 is
-/// left out. `medium` emits; adds the look-ups of densities and sources.
+/// 15 %, to about 1e-4 of the largest source in a piece, usually far less. What lies behind an optical depth of 25, in
+/// all channels, is left out. `medium` emits; adds the look-ups of densities and sources.
 EmittedLight emitted_along(const Medium& medium, const Ray& ray, const Interval& interval, uint64_t& lookups);
 
 }  // namespace vpm

@@ -179,7 +179,7 @@ void add_emitting_media(const std::vector<Box>& around, AssembledScene& result) 
       scene.lights.push_back(
           VolumeLight{static_cast<int>(i), std::make_shared<const EmittingVolume>(medium, around[i])});
     } catch (const InputError& error) {
-      throw PartError({PartKind::medium, i}, error.what());
+      throw PartError({PartKind::medium, i}, error.what(), doubt_of_temperatures(medium));
     }
     result.light_names.push_back(medium.name);
   }

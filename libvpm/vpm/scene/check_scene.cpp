@@ -171,27 +171,22 @@ void note_unresolved_media(const Scene& scene, std::vector<std::string>& notes) 
 
 }  // namespace
 
-namespace {
-
-/// Temperatures in other units than kelvin are often below 20.
-void note_temperatures(const Scene& scene, std::vector<std::string>& notes) {
-  constexpr double kCold = 700.0, kHot = 20'000.0;  // K
-  for (const Medium& medium : scene.media) {
-    if (!medium.emits() || !medium.emission->blackbody || !medium.emission_grid) continue;
-    const double hottest = medium.emission->kelvin(double{medium.emission_grid->max_density()});
-    if (hottest < kCold || hottest > kHot)
-      notes.push_back(
-          fmt::format("medium '{}': its temperatures reach {:.4g} K, fire has 1000 to 3000 K: 'scale' and "
-                      "'offset' of 'temperature' make kelvin of the grid's values",
-                      medium.name, hottest));
-  }
+std::string doubt_of_temperatures(const Medium& medium) {
+  constexpr double kCold = 700.0, kHot = 20'000.0;  // K; values in other units are often below 20
+  if (!medium.emits() || !medium.emission->blackbody || !medium.emission_grid) return "";
+  const double hottest = medium.emission->kelvin(double{medium.emission_grid->max_density()});
+  if (hottest >= kCold && hottest <= kHot) return "";
+  return fmt::format(
+      "its temperatures reach {:.4g} K, fire has 1000 to 3000 K: 'scale' and 'offset' of 'temperature' "
+      "make kelvin of the grid's values",
+      hottest);
 }
-
-}  // namespace
 
 std::vector<std::string> notes_of(const Scene& scene) {
   std::vector<std::string> notes;
-  note_temperatures(scene, notes);
+  for (const Medium& medium : scene.media)
+    if (const std::string doubt = doubt_of_temperatures(medium); !doubt.empty())
+      notes.push_back("medium '" + medium.name + "': " + doubt);
   note_unresolved_place(scene.bounds, notes);
   note_unresolved_media(scene, notes);
   return notes;

@@ -35,8 +35,12 @@ struct CommonFace {
 /// 1e-6.
 std::optional<CommonFace> find_common_face(const Scene& scene);
 
-/// Sentences about a finished scene: that it stands so far from the origin that the spacing of floats there shows in
-/// its shapes, and which media have free paths shorter than floats resolve positions.
+/// What is to be said of the temperatures by which a medium emits, where they reach less than 700 K or more than 20,000
+/// K; "" elsewhere.
+std::string doubt_of_temperatures(const Medium& medium);
+
+/// Sentences about a finished scene: such doubts, that it stands so far from the origin that the spacing of floats
+/// there shows in its shapes, and which media have free paths shorter than floats resolve positions.
 std::vector<std::string> notes_of(const Scene& scene);
 
 }  // namespace vpm

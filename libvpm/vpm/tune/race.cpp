@@ -22,6 +22,7 @@ constexpr double kNothingShown = 0.5;                 // an error of which a pil
 constexpr double kFewest = 1000.0;                    // photons
 constexpr const char* kPhotonsKey = "integrator.photons.emitted";
 constexpr int kPassesOfRound = 2, kMostRounds = 30;
+constexpr double kAlike = 1.5, kAlikeAtFirst = 4.0;  // times, which no pilot tells apart; by its first few passes
 
 struct Runner {
   WayPilot pilot;
@@ -122,15 +123,14 @@ double doubt_of_ratio(const std::vector<double>& a, const std::vector<double>& b
   return std::sqrt(differences.variance_of_mean());
 }
 
-/// Drops the ways that are surely behind the first, unless that one shows next to nothing. Returns ", NAME" of each.
-std::string drop_behind(int round, std::vector<Runner>& runners) {
-  constexpr double kAlike = 1.5, kAlikeAtFirst = 4.0;  // times, which no pilot tells apart; by its first few passes
-  constexpr double kSure = 2.0;                        // standard errors
-  const auto is_behind = [&first = runners.front(), round](const Runner& other) {
+/// Drops the ways that are surely behind the first by more than that many times, unless that one shows next to nothing.
+/// Returns ", NAME" of each.
+std::string drop_behind(double alike, std::vector<Runner>& runners) {
+  constexpr double kSure = 2.0;  // standard errors
+  const auto is_behind = [&first = runners.front(), alike](const Runner& other) {
     if (std::isinf(other.error) || first.error > kNothingShown)
       return std::isinf(other.error) && !std::isinf(first.error);
-    return other.error >
-           first.error * ((round == 0 ? kAlikeAtFirst : kAlike) + kSure * doubt_of_ratio(first.noise, other.noise));
+    return other.error > first.error * (alike + kSure * doubt_of_ratio(first.noise, other.noise));
   };
   std::string names;
   for (size_t i = runners.size(); i-- > 1;)
@@ -211,10 +211,10 @@ Winner race(const Scene& scene, const AutomaticSettings& automatic, const std::v
   std::string behind;
   for (int round = 0; round < kMostRounds; ++round) {
     compare(begin + seconds - clock.seconds(), runners);
-    behind = drop_behind(round, runners) + behind;
+    behind = drop_behind(round == 0 ? kAlikeAtFirst : kAlike, runners) + behind;
     if (!go_on(begin + (runners.size() > 1 ? kPilotShare : kAloneShare) * seconds, clock, runners)) break;
   }
-  behind = drop_behind(kMostRounds, runners) + behind;
+  behind = drop_behind(kAlike, runners) + behind;
   const bool nothing_shown = runners.front().error > kNothingShown;
   std::stable_sort(runners.begin(), runners.end(), [](const Runner& a, const Runner& b) { return a.turn < b.turn; });
   if (nothing_shown) runners.front().best = runners.front().pilot.usual();
