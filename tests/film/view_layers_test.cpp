@@ -10,6 +10,7 @@
 #include "vpm/integrators/path/path_tracer.h"
 #include "vpm/integrators/photon_map/photon_pass.h"
 #include "vpm/integrators/render_scene.h"
+#include "vpm/study/estimates/glowing.h"
 
 namespace vpm {
 namespace {
@@ -86,7 +87,7 @@ TEST_F(ViewLayers, HaveNamesLettersAndVariances) {
   }
   EXPECT_EQ(told,
             "depth:Z normal:XYZ normal-variance:XYZ albedo:RGB albedo-variance:RGB transmittance:RGB "
-            "transmittance-variance:RGB single-scattering-albedo:RGB samples:X ");
+            "transmittance-variance:RGB single-scattering-albedo:RGB emission:RGB emission-variance:RGB samples:X ");
   EXPECT_EQ(channels, layer_channels(settings));
   render_passes(settings, 1);
   EXPECT_EQ(layers_.size(), kViewLayers.size());
@@ -165,6 +166,17 @@ TEST_F(ViewLayers, StandBehindThoseOfTechniques) {
   EXPECT_EQ(of_view, view_films(settings.layers));
   EXPECT_EQ(both.layers.back().pixels,
             render_pass(scene_, few_photons(Integrator::path, all_layers()), 0).layers.back().pixels);
+}
+
+/// What media emit before the wall is the part of the picture that nothing has scattered.
+TEST_F(ViewLayers, HaveWhatMediaEmit) {
+  Medium glowing = make_medium(nullptr, Rgb(0.5f, 1.0f, 2.0f), 0.0f);
+  glowing.emission = MediumEmission{.colour = Rgb(3.0f)};
+  scene_ = glowing_ball(glowing, {Vec3(0.0f), 1.0f});
+  scene_.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 60.0f, {kSize, kSize});
+  const View view = view_along(scene_, {Vec3(0, 0, 4), Vec3(0, 0, -1)});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(view.passage.emission[c], 3.0 * -std::expm1(-2.0 * glowing.sigma_t[c]), 1e-5);
+  EXPECT_EQ(view_along(scene_, {Vec3(0, 0, 4), Vec3(0, 1, 0)}).passage.emission, Rgbd(0.0));
 }
 
 }  // namespace

@@ -143,5 +143,30 @@ TEST_F(ViewOfGrid, MakesAFogOfALevelSet) {
   EXPECT_FLOAT_EQ(job.scene.media.at(0).grid->density(Vec3(0.0f)), 1.0f);
 }
 
+/// How the numbers beside a density are read: kelvin, a flame, or neither.
+TEST_F(ViewOfGrid, ShowsFireBesideADensity) {
+  struct Case {
+    std::vector<std::pair<std::string, float>> grids;
+    std::string glows;
+    double largest;  // K
+  };
+  for (const Case& c : {Case{{{"temperature", 1800.0f}, {"flame", 0.5f}}, "temperature", 1800.0},
+                        Case{{{"Temperature", 1.5f}, {"flame", 0.5f}}, "flame", 2250.0},
+                        Case{{{"heat", 20.0f}}, "heat", 2000.0}, Case{{{"flames", 3.0f}}, "flames", 2000.0}}) {
+    openvdb::GridPtrVec all{cube_grid("density", 12, 2)};
+    for (const auto& [name, value] : c.grids) all.push_back(cube_grid(name, 6, 2, value));
+    write(all);
+    const RenderJob job = job_of();
+    const Medium& medium = job.scene.media.at(0);
+    ASSERT_TRUE(medium.emits());
+    EXPECT_NEAR(medium.emission->kelvin(double{medium.emission_grid->max_density()}), c.largest, 1e-3 * c.largest);
+    EXPECT_TRUE(contains(view().text, "grid = \"" + c.glows + "\"")) << view().text;
+    ASSERT_EQ(view().notes.size(), 2u);
+    EXPECT_TRUE(contains(view().notes[1], "grid '" + c.glows + "' glows")) << view().notes[1];
+  }
+  write({cube_grid("density", 12, 2), cube_grid("velocity_x", 12, 2)});
+  EXPECT_FALSE(job_of().scene.media.at(0).emits());
+}
+
 }  // namespace
 }  // namespace vpm

@@ -139,14 +139,15 @@ double by_small_steps(const Medium& medium, const Ray& ray) {
   return sum;
 }
 
-/// By an offset all of the density glows, also where the grid of temperatures has no bricks.
-TEST(Emission, ByAnOffsetReachesAsFarAsDensity) {
+/// Where the grid of temperatures is 0 nothing glows, whatever the offset is.
+TEST(Emission, ByAnOffsetEndsWithItsGrid) {
   Medium medium = emitting_grids(0.9f, 1.6f);
   medium.emission_grid = make_grid(centered_frame(3, 0.2), lattice_noise);
   medium.emission->blackbody = true;
   medium.emission->scale = 400.0;
   medium.emission->offset = 1500.0;
   const Ray ray{Vec3(-2.0f, -0.7f, 0.1f), glm::normalize(Vec3(1.0f, 0.9f, 0.95f))};
+  EXPECT_EQ(medium.emission->source(0.0), Rgbd(0.0));
   EXPECT_NEAR(radiance_along(medium, ray, {0.0f, 6.0f}).g / by_small_steps(medium, ray), 1.0, 2e-4);
 }
 

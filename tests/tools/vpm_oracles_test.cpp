@@ -74,7 +74,7 @@ TEST_F(VpmOracles, ATableAloneIsChecked) {
 
 TEST_F(VpmOracles, WhatItDoesNotKnowIsNotPassed) {
   for (const auto& [file, text, words] : {
-           std::tuple("s9_rainbow.json", R"({"cases": [{"id": "bow"}]})", "no problem of this name is known"),
+           std::tuple("s99_rainbow.json", R"({"cases": [{"id": "bow"}]})", "no problem of this name is known"),
            std::tuple("s6_density.json", R"({"splats": [{"id": "bow"}]})", "no problem of this name is known"),
            std::tuple("s6_density.json", R"({"kernels": [{"dimension": 2, "kernel": "gaussian"}]})",
                       "the framework has no kernel"),

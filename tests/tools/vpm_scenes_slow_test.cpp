@@ -24,6 +24,8 @@ const std::vector<FileSource> kFiles{{"smoke", "media.smoke.path", "media", "smo
                                      {"plume_lake", "media.smoke.path", "media", "smoke"},
                                      {"plume_lake", "shapes.water.path", "mesh", "waves"},
                                      {"cloud", "media.cloud.path", "media", "cloud"},
+                                     {"fire", "media.fire.path", "media", "fire"},
+                                     {"fire_glass", "media.fire.path", "media", "fire"},
                                      {"ring_caustic", "shapes.ring.path", "mesh", "ring"},
                                      {"pool", "shapes.water.path", "mesh", "waves"},
                                      {"street_lamp", "shapes.pole.path", "mesh", "pole"},
@@ -68,9 +70,10 @@ class VpmScenes : public VpmBinary {
     for (const FileSource& source : kFiles) {
       if (source.scene != scene) continue;
       const bool mesh = source.command == "mesh";
-      const std::string file = path(mesh ? source.name + ".ply" : "small.vdb");
+      const std::string name = source.command.empty() ? "smoke" : source.name;
+      const std::string file = path(name + (mesh ? ".ply" : ".vdb"));
       if (!std::filesystem::exists(file))
-        vpm_succeeds({mesh ? "mesh" : "media", mesh ? source.name : "smoke", "--resolution", "12", "-o", file});
+        vpm_succeeds({mesh ? "mesh" : "media", name, "--resolution", "12", "-o", file});
       options.insert(options.end(), {"--set", source.key + "=" + file});
     }
     return options;

@@ -46,7 +46,8 @@ UvLayout lay_out(const Scene& scene, const BakeOptions& options) {
 void write_outputs(const Outputs& outputs, const BakeOptions& options, const RenderJob& job, const UvLayout& layout,
                    const LightMap& baked) {
   write_light_map(outputs.exr, job, options.mesh, layout, baked.render);
-  write_preview(outputs, options.exposure, light_map_of(layout, baked.render));
+  const Image light = light_map_of(layout, baked.render);
+  write_preview(outputs, options.exposure, light, light);
   write_text(outputs.json, light_map_report(job, outputs.exr.string(), options.mesh, layout, baked));
 }
 

@@ -95,7 +95,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
   command
       ->add_option("--layers", options.layers,
                    "Write these layers, too, separated by commas: combined (what each technique finds), and of what a "
-                   "pixel sees depth, normal, albedo, transmittance, single-scattering-albedo, samples")
+                   "pixel sees depth, normal, albedo, transmittance, single-scattering-albedo, emission, samples")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(known_layers()));

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "vpm/base/error.h"
 #include "vpm/estimate/photon_map.h"
+#include "vpm/image/metrics.h"
 #include "vpm/input/grid/grid_file.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/integrators/combined/combined_pass.h"
@@ -53,6 +54,36 @@ void print_details(const GridSummary& g) {
   if (g.background) fmt::print("  background {:.6g}\n", *g.background);
 }
 
+/// What a medium emits, and how its grid is read.
+void print_emission(const Medium& m) {
+  if (!m.emits()) return;
+  const MediumEmission& e = *m.emission;
+  const DensityGrid* grid = m.emission_grid.get();
+  if (e.blackbody)
+    fmt::print("  emits as a black body of {:.6g} + {:.6g} times the value of its grid: {:.6g} K at the largest\n",
+               e.offset, e.scale, e.kelvin(grid ? grid->max_density() : 1.0));
+  else if (e.meaning == MediumEmission::Meaning::thermal)
+    fmt::print("  emits with absorption and density: a thick layer is of the radiance {} W/(m^2 sr){}\n", rgb(e.colour),
+               grid ? " times the value of its grid" : "");
+  else
+    fmt::print("  emits {} W/m^3{}, whatever the density\n", rgb(e.colour * (4.0f * kPi)),
+               grid ? " times the value of its grid" : "");
+  if (!grid) return;
+  const Box box = grid->bounds();
+  fmt::print("  its grid: bounds {} to {} m, voxel {:.6g} m, value mean {:.6g}, max {:.6g}, memory {}\n", text(box.lo),
+             text(box.hi), grid->voxel_size(), grid->mean_density(), grid->max_density(),
+             mebibytes(grid->memory_bytes()));
+}
+
+/// "power 3 W", and of media that emit in lumens, too: watts of vpm are as the eye counts them.
+std::string power_text(const Light& light, const Box& bounds) {
+  constexpr double kLumens = 683.002;  // of a watt
+  const Rgb power = light_power(light, bounds);
+  const std::string watts = fmt::format("power {} W", rgb(power));
+  if (!std::holds_alternative<VolumeLight>(light)) return watts;
+  return fmt::format("{}, {:.6g} lm", watts, kLumens * luminance(power));
+}
+
 void print_medium(const Medium& m) {
   fmt::print("medium {}: {}\n  sigma_s {} 1/m, sigma_t {} 1/m, albedo {}\n", m.name,
              m.homogeneous() ? "homogeneous" : "grid", rgb(m.sigma_s), rgb(m.sigma_t), rgb(m.albedo()));
@@ -65,6 +96,7 @@ void print_medium(const Medium& m) {
   const double densest = m.grid ? m.grid->max_density() : 1.0;
   fmt::print("  mean free path {:.6g} m at the mean density, {:.6g} m at the largest\n",
              1.0 / (mean_channel(m.sigma_t) * m.mean_density()), 1.0 / (mean_channel(m.sigma_t) * densest));
+  print_emission(m);
 }
 
 std::string until_text(const StopRule& until) {
@@ -158,9 +190,9 @@ void print_scene(const InfoOptions& options) {
     fmt::print("{} shapes in {} to {} m\n", scene.shapes.size(), text(box.lo), text(box.hi));
   fmt::print("around everything: {}\n", medium_text(scene, scene.world_medium));
   for (size_t i = 0; i < scene.lights.size(); ++i)
-    fmt::print("light {}{}: {}, power {} W, chosen with probability {:.4g}\n", i,
+    fmt::print("light {}{}: {}, {}, chosen with probability {:.4g}\n", i,
                job.light_names[i].empty() ? "" : ", " + job.light_names[i], light_kind(scene.lights[i]),
-               rgb(light_power(scene.lights[i], scene.bounds)), scene.light_probability[i]);
+               power_text(scene.lights[i], scene.bounds), scene.light_probability[i]);
 }
 
 }  // namespace

@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <regex>
 
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
 #include "vpm/film/view_layers.h"
+#include "vpm/image/metrics.h"
 #include "vpm/image/png.h"
 #include "vpm/integrators/render_scene.h"
 #include "vpm/job/checkpoint.h"
@@ -61,8 +64,28 @@ void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, con
   }
 }
 
-void write_preview(const Outputs& outputs, const std::optional<float>& exposure, const Image& picture) {
-  write_png(outputs.png, picture, exposure ? *exposure : auto_exposure(picture));
+void write_preview(const Outputs& outputs, const std::optional<float>& exposure, const Image& picture,
+                   const Image& exposed_by) {
+  write_png(outputs.png, picture, exposure ? *exposure : auto_exposure(exposed_by));
+}
+
+Image without_fire(const Scene& scene, Image picture) {
+  constexpr double kMost = 0.5;   // of a pixel's light may be emitted
+  constexpr size_t kFewest = 20;  // pixels, of which one must be left
+  if (!scene.has_emitting_media()) return picture;
+  const auto lit = [](const Rgb& pixel) { return is_finite(pixel) && luminance(pixel) > 0.0f; };
+  const auto width = static_cast<size_t>(picture.width);
+  Image rest = picture;
+  parallel_for_chunks(picture.pixels.size(), width, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      if (!lit(picture.pixels[i])) continue;
+      const Vec2 film(static_cast<float>(i % width) + 0.5f, static_cast<float>(i / width) + 0.5f);
+      const Rgb emitted(view_along(scene, scene.camera.ray(film)).passage.emission);
+      if (luminance(emitted) > kMost * luminance(picture.pixels[i])) rest.pixels[i] = Rgb(0.0f);
+    }
+  });
+  const auto count = [&](const Image& image) { return std::count_if(image.pixels.begin(), image.pixels.end(), lit); };
+  return count(rest) * static_cast<std::ptrdiff_t>(kFewest) < count(picture) ? picture : rest;
 }
 
 void apply_options(const PassOptions& options, RenderSettings& settings) {

@@ -102,7 +102,8 @@ std::vector<std::string> overrides_of(const RenderOptions& options) {
 void write_outputs(const Outputs& outputs, const std::optional<float>& exposure, const RenderJob& job,
                    const RenderResult& result) {
   write_picture(outputs.exr, job, result);
-  write_preview(outputs, exposure, result.film.mean());
+  const Image picture = result.film.mean();
+  write_preview(outputs, exposure, picture, without_fire(job.scene, picture));
   write_text(outputs.json, render_report(job, outputs.exr.string(), result));
 }
 

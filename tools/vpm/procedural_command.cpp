@@ -11,8 +11,9 @@ namespace vpm::tools {
 
 int media_command(const MediaOptions& options) {
   if (options.name.empty()) {
-    for (const auto& [name, summary, size, value] : procedural_fields())
-      fmt::print("{:<10} {:<18} {}\n", name, fmt::format("{:g} x {:g} x {:g} m", size.x, size.y, size.z), summary);
+    for (const auto& [name, summary, size, value, grid] : procedural_fields())
+      if (grid == "density")
+        fmt::print("{:<10} {:<18} {}\n", name, fmt::format("{:g} x {:g} x {:g} m", size.x, size.y, size.z), summary);
     return 0;
   }
   const std::string output = options.output.empty() ? options.name + ".vdb" : options.output;

@@ -97,7 +97,7 @@ void show_first_picture(const ViewOptions& options, const Outputs& outputs, cons
   });
   if (!first || fs::exists(outputs.png)) return;
   early.add(outputs.png);
-  write_preview(outputs, options.exposure, *first);
+  write_preview(outputs, options.exposure, *first, without_fire(job.scene, *first));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct EyeScratch {
   std::vector<Track> tracks;       // of the last flight
   PhotonBeamMap::Selection beams;  // near the last bundle of rays
   std::vector<uint32_t> leaves;    // of a map of photons, likewise
+  std::vector<Rgb> emitted;        // by each medium along the last ray, W/(m^2 sr)
 };
 
 struct EyeWork {

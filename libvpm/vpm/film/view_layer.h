@@ -11,19 +11,20 @@
 namespace vpm {
 
 /// A property of what a pixel's rays come through and to.
-enum class ViewLayer : uint32_t { depth, normal, albedo, transmittance, single_scattering_albedo, samples };
+enum class ViewLayer : uint32_t { depth, normal, albedo, transmittance, single_scattering_albedo, emission, samples };
 
 struct ViewLayerInfo {
   ViewLayer layer;
   std::string_view name;
 };
 /// All, in the order of ViewLayer.
-inline constexpr std::array<ViewLayerInfo, 6> kViewLayers{
+inline constexpr std::array<ViewLayerInfo, 7> kViewLayers{
     {{ViewLayer::depth, "depth"},
      {ViewLayer::normal, "normal"},
      {ViewLayer::albedo, "albedo"},
      {ViewLayer::transmittance, "transmittance"},
      {ViewLayer::single_scattering_albedo, "single-scattering-albedo"},
+     {ViewLayer::emission, "emission"},
      {ViewLayer::samples, "samples"}}};
 
 /// A set of layers, empty by default.

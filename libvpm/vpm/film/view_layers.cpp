@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "vpm/base/overloads.h"
+#include "vpm/medium/emission.h"
 #include "vpm/path/both_sides.h"
 #include "vpm/path/segments.h"
 #include "vpm/surface/material/fresnel.h"
@@ -26,6 +27,10 @@ struct Passing {
   bool pass(float length, const Encounter&) {
     if (number == kVacuum) return true;
     const Medium& medium = scene.media[number];
+    if (medium.emits()) {
+      uint64_t uncounted = 0;
+      passage.emission += passage.transmittance * Rgbd(emitted_along(medium, ray, {0.0f, length}, uncounted).radiance);
+    }
     const double integral = density_integral(medium, ray, {0.0f, length}).value;
     const Rgb albedo = medium.albedo();
     for (int c = 0; c < 3; ++c) {
@@ -122,6 +127,7 @@ Rgbd albedo_of(const View& view) { return view.albedo; }
 Rgbd transmittance_of(const View& view) { return view.passage.transmittance; }
 Rgbd scattered_of(const View& view) { return view.passage.scattered; }
 Rgbd lost_of(const View& view) { return view.passage.lost; }
+Rgbd emission_of(const View& view) { return view.passage.emission; }
 
 /// What is written of the means of these sums.
 using Finish = Image (*)(std::span<const Image> means);
@@ -156,6 +162,7 @@ const LayerKind& kind_of_layer(ViewLayer layer) {
                                                                 {"RGB", {albedo_of}},
                                                                 {"RGB", {transmittance_of}},
                                                                 {"RGB", {scattered_of, lost_of}, scattered_over_lost},
+                                                                {"RGB", {emission_of}},
                                                                 {"X", {}}}};
   return kinds[static_cast<size_t>(layer)];
 }

@@ -20,6 +20,7 @@ struct Passage {
   Rgbd transmittance{1.0};     // of all media before that
   Rgbd lost{0.0};              // 1 - transmittance, exact also where that rounds to 0
   Rgbd scattered{0.0};         // the part of `lost` that is scattered, not absorbed
+  Rgbd emission{0.0};          // what media emit on the way, attenuated, W/(m^2 sr)
 };
 /// Takes a ray that starts in `medium` straight on to the first surface, by exact density integrals. The ray and
 /// `medium` become those of the last segment.

@@ -151,8 +151,9 @@ void load_grid_of(Medium& medium, const GridPlan& plan, const GridRequest& reque
     job.clamped_density_values += grid.clamped_values;
     for (const std::string& note : grid.notes) job.notes.push_back("medium '" + medium.name + "': " + note);
     if (grid.clamped_values > 0)
-      job.notes.push_back("medium '" + medium.name + "': " + std::to_string(grid.clamped_values) +
-                          " negative densities set to 0, as clamp_negative asks");
+      job.notes.push_back("medium '" + medium.name + "': " + std::to_string(grid.clamped_values) + " negative " +
+                          (plan.request.density ? "densities" : "values of its emission") +
+                          " set to 0, as clamp_negative asks");
   } catch (const InputError& error) {
     plan.table.fail(plan.given ? "grid" : plan.key, error.what());
   }

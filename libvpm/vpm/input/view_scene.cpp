@@ -157,11 +157,18 @@ std::string toml_string(const std::string& s) {
   return out + '"';
 }
 
+/// A grid beside the density that tells of fire, and how its values are read as kelvin.
+struct ShownFire {
+  std::string grid, reading;
+  double scale = 1.0, offset = 0.0;
+};
+
 /// What is read of the grid.
 struct ShownGrid {
   std::string path_in_scene, name;
   bool from_level_set, clamp_negative;
   std::optional<Box> bounds;  // m, where it has a background that would fill all space
+  std::optional<ShownFire> fire{};
 };
 
 /// A shape that ends a medium with a background.
@@ -171,6 +178,46 @@ std::string bounds_text(const std::optional<Box>& bounds) {
       "[[shapes]]\nname = \"bounds\"  # the box of the grid's voxels: its background would fill all space\ntype = "
       "\"box\"\nmaterial = {{ type = \"boundary\" }}\nmin = {}\nmax = {}\ninside = \"medium\"\n\n",
       toml_vector(bounds->lo), toml_vector(bounds->hi));
+}
+
+/// What a file has beside the density that may glow: temperatures first. Files do not say what their numbers mean.
+std::optional<ShownFire> find_fire(const std::string& path, const std::vector<GridSummary>& grids) {
+  constexpr double kCold = 700.0, kHot = 20'000.0, kUsual = 2000.0;  // K
+  constexpr double kFlameCold = 1500.0, kFlameHot = 3000.0;          // K: as Blender shows flames of 0 to 1
+  struct GlowingGrid {
+    std::string grid;
+    double largest = 0.0;
+  };
+  const auto find = [&](std::initializer_list<std::string_view> names) -> std::optional<GlowingGrid> {
+    for (const std::string_view name : names)
+      for (const GridSummary& grid : grids) {
+        if (small_letters(grid.name) != name || !holds_values(grid) || is_level_set(grid)) continue;
+        const GridRequest request{.path = path, .name = grid.name, .density = false};
+        const double largest = load_grid(request).grid->max_density();
+        if (largest > 0.0) return GlowingGrid{grid.name, largest};
+      }
+    return std::nullopt;
+  };
+  const std::optional<GlowingGrid> temperature = find({"temperature", "temperatures", "heat"});
+  if (temperature && temperature->largest >= kCold && temperature->largest <= kHot)
+    return ShownFire{temperature->grid, fmt::format("in kelvin, up to {:.4g}", temperature->largest)};
+  const std::optional<GlowingGrid> flame = find({"flame", "flames", "fire", "burn"});
+  if (flame && flame->largest <= 1.0)
+    return ShownFire{flame->grid, fmt::format("0 to 1 as {:g} to {:g} K", kFlameCold, kFlameHot),
+                     kFlameHot - kFlameCold, kFlameCold};
+  const std::optional<GlowingGrid>& other = temperature ? temperature : flame;
+  if (!other) return std::nullopt;
+  return ShownFire{other->grid, fmt::format("such that the largest, {:.4g}, is {:g} K", other->largest, kUsual),
+                   kUsual / other->largest};
+}
+
+std::string emission_text(const std::optional<ShownFire>& fire) {
+  if (!fire) return "";
+  return fmt::format(
+      "emission = {{ temperature = {{ grid = {}, scale = {:.6g}, offset = {:g} }} }}  # {}: kelvin are offset + scale "
+      "* "
+      "value\n",
+      toml_string(fire->grid), fire->scale, fire->offset, fire->reading);
 }
 
 std::string scene_text(const ShownGrid& grid, double sigma_t, const ViewWishes& wishes, const Stage& stage) {
@@ -200,9 +247,9 @@ filter = "gaussian"
 type = "grid"
 path = {path}
 {keys}sigma_t = {sigma_t:.4g}  # 1/m at density 1: an optical depth of about {depth:g} across
-albedo = [0.96, 0.95, 0.94]
+albedo = {albedo}
 phase = {{ type = "henyey-greenstein", g = 0.3 }}
-
+{emission}
 [materials.floor]
 type = "lambertian"
 reflectance = [0.32, 0.30, 0.28]
@@ -237,8 +284,9 @@ type = "auto"
 )",
       fmt::arg("path", toml_string(grid.path_in_scene)), fmt::arg("camera", toml_vector(Vec3(stage.camera))),
       fmt::arg("target", toml_vector(Vec3(stage.target))), fmt::arg("up", toml_vector(Vec3(up))), fmt::arg("fov", kFov),
-      fmt::arg("keys", keys), fmt::arg("sigma_t", sigma_t), fmt::arg("depth", wishes.optical_depth),
-      fmt::arg("floor", toml_vector(Vec3(stage.floor))),
+      fmt::arg("keys", keys), fmt::arg("emission", emission_text(grid.fire)),
+      fmt::arg("albedo", grid.fire ? "0.8  # soot" : "[0.96, 0.95, 0.94]"), fmt::arg("sigma_t", sigma_t),
+      fmt::arg("depth", wishes.optical_depth), fmt::arg("floor", toml_vector(Vec3(stage.floor))),
       fmt::arg("floor_radius", static_cast<float>(stage.floor_radius)), fmt::arg("bounds", bounds_text(grid.bounds)),
       fmt::arg("lamp", toml_vector(Vec3(stage.lamp))), fmt::arg("inner", stage.lamp_angle),
       fmt::arg("outer", 1.25 * stage.lamp_angle), fmt::arg("intensity", toml_vector(Vec3(intensity))));
@@ -306,11 +354,17 @@ ViewScene make_view_scene(const std::string& path, const std::string& path_in_sc
                           path, name, kColumns, kColumns)
             : fmt::format("{}: the grid '{}' is 0 everywhere", path, name));
   const double sigma_t = wishes.optical_depth / part.depth;
-  scene.text = scene_text({path_in_scene, name, level_set, scene.request.clamp_negative, bounds}, sigma_t, wishes,
+  const std::optional<ShownFire> fire = find_fire(path, grids);
+  scene.text = scene_text({path_in_scene, name, level_set, scene.request.clamp_negative, bounds, fire}, sigma_t, wishes,
                           stage_for(part.box, wishes));
   scene.notes.push_back(
       fmt::format("grid '{}'{}: sigma_t {:.4g} 1/m at density 1, an optical depth of {:g} across (--optical-depth)",
                   name, level_set ? ", a level set, as a fog of density 1 inside" : "", sigma_t, wishes.optical_depth));
+  if (fire)
+    scene.notes.push_back(fmt::format(
+        "grid '{}' glows, its values read {}: --set media.medium.emission.temperature.scale=..., or .offset, says "
+        "otherwise, --set media.medium.emission_scale=0.1 dims it",
+        fire->grid, fire->reading));
   return scene;
 }
 

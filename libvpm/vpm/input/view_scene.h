@@ -34,8 +34,10 @@ std::string grid_to_show(const std::string& path, const std::vector<GridSummary>
 /// Makes a commented scene file that shows a grid of `path`, which is written into it as `path_in_scene`: seen from a
 /// little above, over a round floor, lit by a spot and a dim sky, all sized by the part of the grid where densities are
 /// not small, with an extinction such that nine tenths of the columns across have no more than the wished optical
-/// depth. A level set becomes a fog; negative densities are read as 0, and counted. Throws InputError as grid_to_show()
-/// and load_grid(), and for a grid that is 0 everywhere.
+/// depth. A level set becomes a fog; negative densities are read as 0, and counted. A grid of temperatures or flames
+/// beside the density makes it glow: values up to 700 to 20,000 are kelvin, flames up to 1 are 1500 to 3000 K, others
+/// are scaled such that the largest is 2000 K. Throws InputError as grid_to_show() and load_grid(), and for a grid that
+/// is 0 everywhere.
 ViewScene make_view_scene(const std::string& path, const std::string& path_in_scene, const ViewWishes& wishes);
 
 }  // namespace vpm

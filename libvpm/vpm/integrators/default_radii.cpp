@@ -62,15 +62,20 @@ RenderSettings as_maps(const RenderSettings& settings) {
 }
 
 /// Merges of combined techniques lose light within a radius of borders, and other techniques find what few photons do
-/// not: they are no wider than what is taken where nobody chooses, unless a pilot then measures less error.
+/// not: they are no wider than what is taken where nobody chooses, nor than the medium is thick, unless a pilot then
+/// measures less error.
 ChosenRadius narrow(const ChosenRadius& chosen, const OpenRadius& open, const Scene& scene) {
   AskedGather usual = open.gather;
   usual.radius = {};
   const bool media = open.key == std::string_view("integrator.volume.radius");
-  const float most = media ? first_radius_of_merges(usual, scene) : first_radius(usual, scene);
+  float most = media ? first_radius_of_merges(usual, scene) : first_radius(usual, scene);
+  const char* bound = "1 % of the scene's or the grid's diagonal";
+  if (media && open.density) {
+    const double thin = std::max(open.density->thickness, kHalfPixel * open.density->footprint);
+    if (thin < double{most}) std::tie(most, bound) = std::pair(rounded_radius(thin), "the thickness of the medium");
+  }
   if (chosen.radius <= most) return chosen;
-  return {most, fmt::format("1 % of the scene's or the grid's diagonal, as merges are not corrected at "
-                            "borders; photon maps would have {:.3g} m: {}",
+  return {most, fmt::format("{}, as merges are not corrected at borders; photon maps would have {:.3g} m: {}", bound,
                             chosen.radius, chosen.reason)};
 }
 

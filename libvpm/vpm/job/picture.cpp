@@ -39,6 +39,7 @@ Image grey_image(const UvLayout& layout, const std::vector<float>& values) {
 constexpr const char* kViewQuantities =
     "; depth: m to the first surface, 1e10 where there is none; normal: of that surface; albedo: of what scatters "
     "light first; transmittance: of the media before the first surface; single-scattering-albedo: of these media; "
+    "emission: of these media, attenuated; "
     "samples: their number";
 
 }  // namespace

@@ -108,7 +108,8 @@ Json rates(const RenderStatistics& s, int tracings) {
           {"stored_per_second", per_second(stored_photons(s), trace_seconds + s.caustic_seconds)}};
 }
 
-/// What each light sends into the scene, exactly; `share`: of the power of all, and of the photons.
+/// What each light sends into the scene: exactly, but for media that emit. `share`: of the power of all, and of the
+/// photons.
 Json lights(const RenderJob& job) {
   const Scene& scene = job.scene;
   Json all = Json::array();
@@ -186,7 +187,7 @@ Json memory(const RenderJob& job, const RenderResult& result) {
   const Scene& scene = job.scene;
   const RenderStatistics& s = result.statistics;
   size_t grids = 0;
-  for (const Medium& m : scene.media) grids += m.grid ? m.grid->memory_bytes() : 0;
+  for (const Medium& m : scene.media) grids += m.memory_bytes();
   size_t textures = 0;
   for (const auto& texture : scene.textures) textures += texture ? texture->memory_bytes() : 0;
   size_t lights = 0;

@@ -2,8 +2,10 @@
 #include "vpm/light/emission_density.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "vpm/base/overloads.h"
+#include "vpm/light/emitting_volume.h"
 #include "vpm/light/kinds.h"
 
 namespace vpm {
@@ -45,14 +47,21 @@ EmissionDensity emission_density(const Light& light, const Box& scene, const Vec
                 [&](const EnvironmentMap& l) {  // rounding may put a direction beside its texel
                   return D{std::max(1e-30, double{l.image->pdf(-travel)}), 1.0 / area_across(scene, travel), true};
                 },
-                [](const VolumeLight&) { return D{}; }},
+                [](const VolumeLight&) {
+                  assert(!"the line that photons start on is to be given");
+                  return D{};
+                }},
       light);
+}
+
+EmissionDensity emission_density(const Light& medium, const Rgb& arriving) {
+  return {1.0, double{mean_channel(arriving)} / std::get<VolumeLight>(medium).volume->bound(), true};
 }
 
 double sampled_density(const Light& light, const Vec3& place, const SeenLight& seen) {
   if (!can_be_hit(light)) return 1.0;
   const double pdf = incident_pdf(light, place, seen);
-  if (is_infinite(light)) return pdf;
+  if (is_infinite(light) || std::holds_alternative<VolumeLight>(light)) return pdf;
   return pdf * std::max(0.0f, -glm::dot(seen.normal, seen.direction)) / (double{seen.distance} * seen.distance);
 }
 

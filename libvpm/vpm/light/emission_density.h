@@ -15,8 +15,10 @@ struct EmissionDensity {
 
 /// The densities with which emit() starts photons that travel along `travel` (unit), from a point of the light with the
 /// outward normal `normal` (unit, without meaning for lights that have none). `scene` is the box that emit() is given.
-/// None of a VolumeLight.
 EmissionDensity emission_density(const Light& light, const Box& scene, const Vec3& normal, const Vec3& travel);
+/// Of a medium that emits, from anywhere on a line over which all that it emits is `arriving`, W/(m^2 sr), at a place
+/// beyond: how densely photons fly by there, on their first flight. `place` is 1/sr, as of parallel light.
+EmissionDensity emission_density(const Light& medium, const Rgb& arriving);
 
 /// The density of sample_towards() from a point at `place`, in the measure of EmissionDensity::place.
 double sampled_density(const Light& light, const Vec3& place, const SeenLight& seen);

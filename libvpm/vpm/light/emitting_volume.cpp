@@ -16,69 +16,114 @@ namespace {
 constexpr double kAbove = 1e-5;  // by which a bound is higher, relative
 constexpr double kMostCells = double{1 << 22};
 
-/// The cells of a grid's lattice: voxels that fill them. Where there are too many, 2^3 or more make one. Those of
-/// temperatures are halved where there are few, as light changes much within one.
-GridFrame cells_of(const GridFrame& lattice, bool blackbody) {
-  GridFrame cells;
-  cells.interpolation = Interpolation::nearest;
+/// Cells, and the boxes of them that may emit; none: all.
+struct Cells {
+  GridFrame frame;
+  std::vector<IndexBox> filled{};
+};
+
+/// The cells of the lattice of a grid, where it holds anything: voxels that fill them. Where there are too many, 2^3 or
+/// more make one. Those of temperatures are halved where there are few, as light changes much within one.
+Cells cells_of(const DensityGrid& grid, bool blackbody) {
+  const GridFrame& lattice = grid.frame();
+  Cells cells;
+  GridFrame& frame = cells.frame;
+  frame.interpolation = Interpolation::nearest;
   const bool nearest = lattice.interpolation == Interpolation::nearest;
   const Vec3d first = Vec3d(lattice.lo) - (nearest ? 0.5 : 1.0), last = Vec3d(lattice.hi) + (nearest ? 0.5 : 1.0);
+  const std::vector<IndexBox> filled = grid.filled();
+  // A brick of a trilinear grid reaches from its first voxel to the first one of the next.
+  const double begin = nearest ? -0.5 : 0.0, end = nearest ? 0.5 : 1.0;
   double edge = blackbody && !nearest ? 0.5 : 1.0;
-  const auto count = [&] { return glm::ceil((last - first) / edge); };
-  while (count().x * count().y * count().z > kMostCells) edge *= 2.0;
-  cells.hi = Vec3i(count()) - 1;
+  const auto too_many = [&] {
+    constexpr double kWidest = double{1 << 30};
+    double count = 0.0;
+    for (const IndexBox& box : filled) {
+      const Vec3d size = glm::ceil((Vec3d(box.hi - box.lo) + end - begin) / edge);
+      count += size.x * size.y * size.z;
+    }
+    return count > kMostCells || glm::any(glm::greaterThan((last - first) / edge, Vec3d(kWidest)));
+  };
+  while (too_many()) edge *= 2.0;
+  frame.hi = Vec3i(glm::ceil((last - first) / edge)) - 1;
+  for (const IndexBox& box : filled) {
+    const Vec3i lo(glm::floor((Vec3d(box.lo) + begin - first) / edge));
+    const Vec3i hi(glm::ceil((Vec3d(box.hi) + end - first) / edge));
+    cells.filled.push_back({glm::max(lo, Vec3i(0)), glm::min(hi - 1, frame.hi)});
+  }
   const Mat4d at = glm::translate(Mat4d(1.0), first + 0.5 * edge);
-  cells.index_to_world = lattice.index_to_world * at * glm::scale(Mat4d(1.0), Vec3d(edge));
+  frame.index_to_world = lattice.index_to_world * at * glm::scale(Mat4d(1.0), Vec3d(edge));
   return cells;
 }
 
 /// A box as one cell.
-GridFrame cell_of(const Box& box) {
-  GridFrame cells;
-  cells.interpolation = Interpolation::nearest;
+Cells cell_of(const Box& box) {
+  GridFrame frame;
+  frame.interpolation = Interpolation::nearest;
   const Vec3d size = Vec3d(box.hi) - Vec3d(box.lo);
-  cells.index_to_world =
+  frame.index_to_world =
       glm::translate(Mat4d(1.0), 0.5 * (Vec3d(box.lo) + Vec3d(box.hi))) * glm::scale(Mat4d(1.0), size);
-  return cells;
+  return {frame};
 }
 
-/// Where the medium emits outside the grid of its source, too, that of the density decides, if anything does.
-GridFrame frame_of(const Medium& medium, const Box& around) {
-  if (!medium.emission_grid && medium.emission->meaning == MediumEmission::Meaning::volume) return cell_of(around);
-  const bool ends = medium.emission_grid && medium.emission->source(0.0) == Rgbd(0.0);
-  const DensityGrid* grid = ends ? medium.emission_grid.get() : medium.grid.get();
-  if (!grid || grid->frame().background != 0.0f) return cell_of(around);
-  return cells_of(grid->frame(), medium.emission->blackbody);
+/// Of the grid that says where something is emitted.
+Cells cells_for(const Medium& medium, const Box& around) {
+  const DensityGrid* grid = medium.emission_grid.get();
+  if (!grid && medium.emission->meaning == MediumEmission::Meaning::thermal) grid = medium.grid.get();
+  if (!grid || grid->frame().background != 0.0f || grid->max_density() == 0.0f) return cell_of(around);
+  return cells_of(*grid, medium.emission->blackbody);
 }
 
-/// The largest value of a grid (null: 1) in the box of cells `lo` to `hi` of another lattice.
-double largest_in(const DensityGrid* grid, const GridFrame& cells, const Vec3d& lo, const Vec3d& hi) {
-  if (!grid) return 1.0;
-  const Mat4d to_index = glm::inverse(grid->frame().index_to_world) * cells.index_to_world;
-  Vec3d first(kInfinity), last(-kInfinity);
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d p(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z);
-    const Vec3d index(to_index * glm::dvec4(p, 1.0));
-    first = glm::min(first, index);
-    last = glm::max(last, index);
+/// A grid, or none, whose value is 1 everywhere, as the cells of another lattice see it.
+class SeenGrid {
+ public:
+  SeenGrid(const DensityGrid* grid, const GridFrame& cells) : grid_(grid) {
+    if (grid) to_index_ = glm::inverse(grid->frame().index_to_world) * cells.index_to_world;
   }
-  return grid->largest(first, last);
-}
 
-/// A bound of the mean of the channels' emission coefficients in a box of cells.
-double bound_in(const Medium& medium, const GridFrame& cells, const Vec3d& lo, const Vec3d& hi) {
-  const Rgbd source = medium.emission->source(largest_in(medium.emission_grid.get(), cells, lo, hi));
-  Rgbd coefficient = source;
-  if (medium.emission->meaning == MediumEmission::Meaning::thermal && source != Rgbd(0.0))
-    coefficient *= Rgbd(medium.sigma_t - medium.sigma_s) * largest_in(medium.grid.get(), cells, lo, hi);
-  return (coefficient.r + coefficient.g + coefficient.b) / 3.0;
-}
+  /// The largest value in a box of cells, or more.
+  double largest(const Vec3d& lo, const Vec3d& hi) const {
+    if (!grid_) return 1.0;
+    Vec3d first(kInfinity), last(-kInfinity);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3d p(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z);
+      const Vec3d index(to_index_ * glm::dvec4(p, 1.0));
+      first = glm::min(first, index);
+      last = glm::max(last, index);
+    }
+    return grid_->largest(first, last);
+  }
 
-std::shared_ptr<const DensityGrid> bounds_of(const Medium& medium, const GridFrame& cells) {
+ private:
+  const DensityGrid* grid_;
+  Mat4d to_index_{1.0};
+};
+
+/// Bounds of the mean of the channels' emission coefficients in cells.
+class Bounds {
+ public:
+  Bounds(const Medium& medium, const GridFrame& cells)
+      : medium_(medium), source_(medium.emission_grid.get(), cells), density_(medium.grid.get(), cells) {}
+
+  double in(const Vec3d& lo, const Vec3d& hi) const {
+    Rgbd coefficient = medium_.emission->source(source_.largest(lo, hi));
+    if (medium_.emission->meaning == MediumEmission::Meaning::thermal && coefficient != Rgbd(0.0))
+      coefficient *= Rgbd(medium_.sigma_t - medium_.sigma_s) * density_.largest(lo, hi);
+    return (coefficient.r + coefficient.g + coefficient.b) / 3.0;
+  }
+
+ private:
+  const Medium& medium_;
+  SeenGrid source_, density_;
+};
+
+std::shared_ptr<const DensityGrid> bounds_of(const Medium& medium, const Cells& cells) {
   constexpr int kValues = DensityGrid::kValues;
-  return std::make_shared<const DensityGrid>(cells, [&](const Vec3i& origin, float* values) {
+  const GridFrame& frame = cells.frame;
+  const Bounds bounds(medium, frame);
+  const auto fill = [&](const Vec3i& origin, float* values) {
     const Vec3d corner = Vec3d(origin) - 0.5;
-    if (bound_in(medium, cells, corner, corner + double{kValues}) == 0.0) {
+    if (bounds.in(corner, corner + double{kValues}) == 0.0) {
       values[0] = 0.0f;
       return DensityGrid::Filled::one;
     }
@@ -87,19 +132,19 @@ std::shared_ptr<const DensityGrid> bounds_of(const Medium& medium, const GridFra
         for (int x = 0; x < kValues; ++x, ++n) {
           const Vec3i voxel = origin + Vec3i(x, y, z);
           const bool inside =
-              glm::all(glm::greaterThanEqual(voxel, cells.lo)) && glm::all(glm::lessThanEqual(voxel, cells.hi));
+              glm::all(glm::greaterThanEqual(voxel, frame.lo)) && glm::all(glm::lessThanEqual(voxel, frame.hi));
           const Vec3d lo = Vec3d(voxel) - 0.5;
-          const double bound = inside ? bound_in(medium, cells, lo, lo + 1.0) : 0.0;
-          values[n] = static_cast<float>((1.0 + kAbove) * bound);
+          values[n] = static_cast<float>(inside ? (1.0 + kAbove) * bounds.in(lo, lo + 1.0) : 0.0);
         }
     return DensityGrid::Filled::all;
-  });
+  };
+  return std::make_shared<const DensityGrid>(frame, fill, cells.filled);
 }
 
 }  // namespace
 
 EmittingVolume::EmittingVolume(const Medium& medium, const Box& around)
-    : bounds_(bounds_of(medium, frame_of(medium, around))) {
+    : bounds_(bounds_of(medium, cells_for(medium, around))) {
   volume_ = std::abs(glm::determinant(glm::dmat3(bounds_->frame().index_to_world)));
   add_cells();
   constexpr size_t kChunk = 1024;
@@ -116,16 +161,16 @@ EmittingVolume::EmittingVolume(const Medium& medium, const Box& around)
 }
 
 void EmittingVolume::add_cells() {
-  const GridFrame& frame = bounds_->frame();
-  for (int z = frame.lo.z; z <= frame.hi.z; ++z)
-    for (int y = frame.lo.y; y <= frame.hi.y; ++y)
-      for (int x = frame.lo.x; x <= frame.hi.x; ++x) {
-        const Vec3i voxel(x, y, z);
-        const double bound = bounds_->largest(Vec3d(voxel), Vec3d(voxel));
-        if (bound == 0.0) continue;
-        cells_.push_back({voxel, total_});
-        total_ += bound * volume_;
-      }
+  for (const IndexBox& box : bounds_->filled())
+    for (int z = box.lo.z; z <= box.hi.z; ++z)
+      for (int y = box.lo.y; y <= box.hi.y; ++y)
+        for (int x = box.lo.x; x <= box.hi.x; ++x) {
+          const Vec3i voxel(x, y, z);
+          const double bound = bounds_->largest(Vec3d(voxel), Vec3d(voxel));
+          if (bound == 0.0) continue;
+          cells_.push_back({voxel, total_});
+          total_ += bound * volume_;
+        }
 }
 
 Rgbd EmittingVolume::power_in(const Medium& medium, const Vec3i& voxel) const {

@@ -12,13 +12,14 @@ namespace vpm {
 
 class EmittingVolume {
  public:
-  /// Of a medium that emits. The cells are those of the grid of its source, else, or where the source is not 0 outside
-  /// it, of its density; without either, the whole box `around` (m) is one. Throws InputError where nothing is emitted
+  /// Of a medium that emits. The cells are those of the grid of its source, else of its density; without either, the
+  /// whole box `around` (m) is one. Throws InputError where nothing is emitted
   /// anywhere.
   EmittingVolume(const Medium& medium, const Box& around);
 
   /// What would be emitted if the medium filled all cells, W: by Gauss points along each axis of each cell, two, which
-  /// is exact for products of two trilinear fields on one lattice, and four where temperatures emit much.
+  /// is exact for products of two trilinear fields on one lattice if cells are its own, and four where temperatures
+  /// emit much.
   const Rgb& power() const { return power_; }
   /// 4 pi times the integral of the bound, W.
   double bound() const { return 4.0 * kPiD * total_; }

@@ -104,6 +104,7 @@ struct EnvironmentMap {
 struct VolumeLight {
   int medium = 0;  // in Scene::media
   std::shared_ptr<const EmittingVolume> volume;
+  Rgb power{0.0f};  // W: of what lies inside the medium, once the scene is finished
 };
 
 using Light = std::variant<PointLight, SpotLight, BeamLight, QuadLight, DiscLight, SphereLight, MeshLight,

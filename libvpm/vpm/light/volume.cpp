@@ -6,7 +6,7 @@
 
 namespace vpm {
 
-Rgb power_of(const VolumeLight& light, const Box&) { return light.volume->power(); }
+Rgb power_of(const VolumeLight& light, const Box&) { return light.power; }
 
 Emission emit_from(const VolumeLight&, const Box&, const EmissionNumbers&) {
   assert(!"photons of media are emitted by emit_photon()");

@@ -70,7 +70,10 @@ class Part {
   /// Halves the part until it is smooth enough for five points; `begin` is where the density integral is `before`.
   Rgbd by_points(double t0, double t1, double begin, int halvings) const {
     constexpr double kMostDepth = 1.0, kMostHotter = 1.15;
-    const double largest = max_channel(sigma_t_);
+    double largest = 0.0;  // of the channels that are not opaque yet
+    const double crossed_before = before_ + integral_of(density_, begin, t0);
+    for (int c = 0; c < 3; ++c)
+      if (sigma_t_[c] * crossed_before < kOpaque) largest = std::max(largest, double{sigma_t_[c]});
     bool rough = largest * integral_of(density_, t0, t1) > kMostDepth;
     if (emission_.blackbody) {
       const auto kelvin = [&](double t) { return std::max(kColdestSeen, emission_.kelvin(value(t))); };
@@ -107,33 +110,24 @@ class Part {
   const double before_;
 };
 
-/// The pieces of a grid along a ray; one of the value 1 where there is none. Where `whole`, those of the value 0 in
-/// between, too.
-uint32_t find_pieces(const DensityGrid* grid, const Ray& ray, const Interval& interval, bool whole,
+/// The pieces of a grid along a ray; one of the value 1 where there is none.
+uint32_t find_pieces(const DensityGrid* grid, const Ray& ray, const Interval& interval,
                      std::vector<DensityPiece>& pieces) {
   pieces.clear();
   if (!grid) {
     pieces.push_back({interval.t0, interval.t1, 1.0, 0.0, 0.0, 0.0});
     return 0;
   }
-  double end = interval.t0;
-  const auto fill_to = [&](double t) {
-    if (whole && t > end) pieces.push_back({end, t, 0.0, 0.0, 0.0, 0.0});
-    end = t;
-  };
-  const uint32_t lookups = grid->visit_pieces(ray, interval, [&](const DensityPiece& piece) {
-    fill_to(piece.t0);
+  return grid->visit_pieces(ray, interval, [&](const DensityPiece& piece) {
     pieces.push_back(piece);
-    end = piece.t1;
     return true;
   });
-  fill_to(interval.t1);
-  return lookups;
 }
 
 }  // namespace
 
 Rgbd MediumEmission::source(double value) const {
+  if (!(value > 0.0)) return Rgbd(0.0);
   return blackbody ? Rgbd(colour) * vpm::blackbody(kelvin(value)) : Rgbd(colour) * value;
 }
 
@@ -146,9 +140,8 @@ Rgbd emission_coefficient(const Medium& medium, const Vec3& place) {
 
 EmittedLight emitted_along(const Medium& medium, const Ray& ray, const Interval& interval, uint64_t& lookups) {
   static thread_local std::vector<DensityPiece> densities, sources;
-  const bool endless = medium.emission->source(0.0) != Rgbd(0.0);
-  count(lookups, find_pieces(medium.grid.get(), ray, interval, false, densities));
-  count(lookups, find_pieces(medium.emission_grid.get(), ray, interval, endless, sources));
+  count(lookups, find_pieces(medium.grid.get(), ray, interval, densities));
+  count(lookups, find_pieces(medium.emission_grid.get(), ray, interval, sources));
   const double opaque =
       kOpaque / std::max(1e-30, double{std::min({medium.sigma_t.r, medium.sigma_t.g, medium.sigma_t.b})});
   EmittedLight light;

@@ -7,7 +7,8 @@ namespace vpm {
 
 struct Medium;
 
-/// What a medium emits: its source, a colour times the value of a grid, or a black body of the temperature there.
+/// What a medium emits: its source, a colour times the value of a grid, or a black body of the temperature there; 0
+/// where the grid is 0.
 ///
 /// Thermal: the source is the radiance of a thick layer, W/(m^2 sr), and the emission coefficient is sigma_a times
 /// density times that: no absorption, no emission. By volume: the source is the emission coefficient itself, W/(m^3
@@ -17,7 +18,7 @@ struct MediumEmission {
   Meaning meaning = Meaning::thermal;
   Rgb colour{0.0f};                  // what the source is multiplied by; see above
   bool blackbody = false;            // by temperature
-  double scale = 1.0, offset = 0.0;  // K: the temperature is the offset plus scale times the grid's value
+  double scale = 1.0, offset = 0.0;  // K: the temperature is the offset plus scale times the grid's value, if any
 
   double kelvin(double value) const { return offset + scale * value; }
   /// The source where the grid has that value; it does not fall where that rises.

@@ -78,6 +78,10 @@ struct Medium {
   Rgb majorant() const { return sigma_t * max_density(); }
   /// The shortest distance between voxels, m; infinite in a homogeneous medium.
   float voxel_size() const { return grid ? grid->voxel_size() : kInfinity; }
+  /// Of its grids.
+  size_t memory_bytes() const {
+    return (grid ? grid->memory_bytes() : 0) + (emission_grid ? emission_grid->memory_bytes() : 0);
+  }
   /// The part of the interval in which the density may differ from zero.
   Interval clip(const Ray& ray, const Interval& interval) const { return grid ? grid->clip(ray, interval) : interval; }
   /// Those at a place of the world: what is asked at collisions. Grids hold densities alone, so that they are the same

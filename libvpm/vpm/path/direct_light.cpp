@@ -101,9 +101,7 @@ DirectSample sample_medium(const ShadowRays& rays, const VolumeLight& light, con
   if (is_behind(receiver, ray.direction)) return {};
   DirectSample sample{ray.direction, Rgb(0.0f), static_cast<float>(light.volume->direction_density(ray))};
   if (!(sample.pdf > 0.0f)) return {};
-  each_emission(rays.scene, ray, receiver.medium, rays.counters, [&](MediumId medium, const Rgb& radiance) {
-    if (medium == light.medium) sample.irradiance += radiance / sample.pdf;
-  });
+  sample.irradiance = emission_of(light.medium, rays.scene, ray, receiver.medium, rays.counters) / sample.pdf;
   return sample;
 }
 

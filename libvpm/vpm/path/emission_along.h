@@ -38,4 +38,13 @@ void each_emission(const Scene& scene, Ray ray, MediumId medium, WalkCounters& c
   each_segment(scene, ray, medium, kInfinity, counters, Visitor{scene, ray, medium, counters, found});
 }
 
+/// What one medium emits along the ray, which starts in `at`: what arrives at its origin, W/(m^2 sr).
+inline Rgb emission_of(MediumId emitting, const Scene& scene, const Ray& ray, MediumId at, WalkCounters& counters) {
+  Rgb sum(0.0f);
+  each_emission(scene, ray, at, counters, [&](MediumId medium, const Rgb& radiance) {
+    if (medium == emitting) sum += radiance;
+  });
+  return sum;
+}
+
 }  // namespace vpm

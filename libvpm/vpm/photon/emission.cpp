@@ -5,7 +5,6 @@
 
 #include "vpm/base/warp.h"
 #include "vpm/light/emitting_volume.h"
-#include "vpm/path/direct_light.h"
 
 namespace vpm {
 
@@ -58,24 +57,19 @@ void EmissionPoint::set(int dimension, double value) {
 
 EmissionPoint draw_emission_point(Rng& rng) { return {rng.uniform_double(), draw_emission_numbers(rng)}; }
 
-namespace {
-
-/// Only as many start at a place as its mean emission is of the bound, so that each stands for as much, but for its
-/// colour. None start outside the medium.
 PathState emit_from_medium(const Scene& scene, const PickedLight& light, const EmissionNumbers& u) {
-  const auto& [number, volume] = std::get<VolumeLight>(scene.lights[light.number]);
-  const EmittingVolume::Place place = volume->draw(u.choice, u.face, u.place);
+  const auto& source = std::get<VolumeLight>(scene.lights[light.number]);
+  const MediumId number = source.medium;
+  const EmittingVolume::Place place = source.volume->draw(u.choice, u.face, u.place);
   const Ray ray{place.position, uniform_sphere(u.direction)};
   PathState photon{ray, number, Rgb(0.0f)};
   const Rgbd emitted = emission_coefficient(scene.media[number], place.position);
   const double mean = (emitted.r + emitted.g + emitted.b) / 3.0;
   if (place.rest * place.bound >= mean || medium_of_ray(scene, kSeveralMedia, ray) != number) return photon;
   // The bound is exceeded at most by what rounding moves a place.
-  photon.throughput = Rgb(volume->bound() / std::min(mean, place.bound) / light.probability * emitted);
+  photon.throughput = Rgb(source.volume->bound() / std::min(mean, place.bound) / light.probability * emitted);
   return photon;
 }
-
-}  // namespace
 
 PathState emit_photon(const Scene& scene, const EmissionPoint& point) {
   const PickedLight light = pick_light(scene, point.light);

@@ -1,8 +1,7 @@
 // One photon's start, as a function of uniform numbers.
 #pragma once
 
-#include "vpm/light/light.h"
-#include "vpm/path/walk.h"
+#include "vpm/path/direct_light.h"
 
 namespace vpm {
 
@@ -19,9 +18,12 @@ struct EmissionPoint {
 /// Uniform over the cube.
 EmissionPoint draw_emission_point(Rng& rng);
 
+/// Of a VolumeLight. Only as many start at a place as its mean emission is of the bound there, so that each stands for
+/// as much, but for its colour; and none outside the medium. Others have no power.
+PathState emit_from_medium(const Scene& scene, const PickedLight& light, const EmissionNumbers& numbers);
+
 /// The photon that the numbers yield: a light is chosen by power and emits. Its power is what it stands for if it is
-/// the only one; the mean over uniform points is the power of all lights. A photon of a medium may have none, as places
-/// are drawn by bounds of what is emitted there.
+/// the only one; the mean over uniform points is the power of all lights. One of a medium may have none.
 PathState emit_photon(const Scene& scene, const EmissionPoint& point);
 
 }  // namespace vpm

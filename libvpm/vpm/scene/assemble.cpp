@@ -176,8 +176,8 @@ void add_emitting_media(const std::vector<Box>& around, AssembledScene& result) 
       throw PartError({PartKind::medium, i}, "'" + medium.name + "' emits, but fills no shape",
                       "name it as a shape's 'inside', or leave out its emission");
     try {
-      scene.lights.push_back(
-          VolumeLight{static_cast<int>(i), std::make_shared<const EmittingVolume>(medium, around[i])});
+      scene.lights.push_back(VolumeLight{.medium = static_cast<int>(i),
+                                         .volume = std::make_shared<const EmittingVolume>(medium, around[i])});
     } catch (const InputError& error) {
       throw PartError({PartKind::medium, i}, error.what(), doubt_of_temperatures(medium));
     }

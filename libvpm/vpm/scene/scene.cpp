@@ -6,6 +6,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/rng.h"
+#include "vpm/light/emitting_volume.h"
 
 namespace vpm {
 
@@ -63,6 +64,26 @@ std::vector<double> probability_by_power(const std::vector<Light>& lights, const
   return probability;
 }
 
+/// What a medium emits where it is, W: by drawn places, unless these find it in all of its cells.
+Rgb power_inside(const Scene& scene, const VolumeLight& light) {
+  constexpr uint64_t kPlaces = 4096;
+  Rgbd inside(0.0);
+  bool whole = true;
+  for (uint64_t i = 0; i < kPlaces; ++i) {
+    Rng rng(0, rng_stream(RngUse::probe, 1), i);
+    const double choice = rng.uniform_double(), x = rng.uniform_double();
+    const EmittingVolume::Place place = light.volume->draw(choice, x, rng.uniform2());
+    const bool is_inside = medium_along(scene, {place.position, kProbes[0]}) == light.medium;
+    whole &= is_inside;
+    if (is_inside) inside += emission_coefficient(scene.media[light.medium], place.position) / place.bound;
+  }
+  const Rgb whole_power = light.volume->power();
+  if (whole && !is_black(whole_power)) return whole_power;
+  // One that no place shows is still a light.
+  constexpr double kLeast = 1e-6;
+  return Rgb(light.volume->bound() * glm::max(inside / double{kPlaces}, Rgbd(kLeast)));
+}
+
 /// Does a boundary between media cut the box? Judged by segments between random points in it: a cut that parts off a
 /// share f of the box is overlooked with probability about (1 - 2 f)^256.
 bool is_cut(const Scene& scene, const Box& box) {
@@ -113,6 +134,8 @@ void finish(Scene& scene) {
   assert(scene.textures.size() <= scene.materials.size());
   scene.bounds = wider_box(scene.geometry.bounds());
   scene.grey = all_grey(scene);
+  for (Light& light : scene.lights)
+    if (auto* volume = std::get_if<VolumeLight>(&light)) volume->power = power_inside(scene, *volume);
   scene.light_probability = probability_by_power(scene.lights, scene.bounds);
   for (Material& material : scene.materials)
     set_facet_loss(material, scene.facet_losses.emplace_back(facet_loss_of(material)).get());

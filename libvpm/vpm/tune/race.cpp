@@ -28,6 +28,7 @@ struct Runner {
   WayPilot pilot;
   size_t turn;  // in the list of all ways
   PassModel model{};
+  ShownLight light{};
   PassSize best{};              // of passes that leave the least error, by the model
   double error = kInfinity;     // at the end of the time with these; infinite where no pass fits
   std::vector<double> noise{};  // of blocks
@@ -82,23 +83,30 @@ void find_best(double seconds, Runner& runner) {
     }
 }
 
-/// Without any light there is no noise either, which says nothing.
-bool shows_nothing(const ShownLight& light) {
-  return std::all_of(light.begin(), light.end(), [](const std::array<Shown, 3>& block) {
-    return std::all_of(block.begin(), block.end(), [](const Shown& shown) { return shown.mean == 0.0; });
-  });
+/// Of all blocks and channels.
+double total(const ShownLight& light) {
+  double sum = 0.0;
+  for (const std::array<Shown, 3>& block : light)
+    for (const Shown& shown : block) sum += shown.mean;
+  return sum;
+}
+
+/// May a way without kernels have missed rare bright samples? It shows less light than another way does.
+bool may_have_missed(const Runner& way, const Runner& other) {
+  constexpr double kLess = 0.9;
+  return way.model.power_of_noise == 0.0 && total(way.light) < kLess * total(other.light);
 }
 
 /// Computes the errors after so many seconds of passes, and sorts by them.
 void compare(double seconds, std::vector<Runner>& runners) {
   const Scales scales = scales_of(runners);
-  std::vector<ShownLight> lights;
-  for (const Runner& runner : runners) lights.push_back(runner.pilot.light());
-  for (size_t i = 0; i < runners.size(); ++i) {
-    Runner& runner = runners[i];
+  for (Runner& runner : runners) runner.light = runner.pilot.light();
+  const bool all_black =
+      std::all_of(runners.begin(), runners.end(), [](const Runner& r) { return total(r.light) == 0.0; });
+  for (Runner& runner : runners) {
     runner.model = runner.pilot.model(scales);
     double missing = 0.0;
-    for (const ShownLight& light : lights) missing = std::max(missing, unseen_by(lights[i], light));
+    for (const Runner& other : runners) missing = std::max(missing, unseen_by(runner.light, other.light));
     // Kernels take light away from edges. A way without them has not met that light in any of its N pixels of a block:
     // fewer than one in N does, so that the variance is N times the square of the mean at least.
     if (runner.model.power_of_noise == 0.0)
@@ -107,7 +115,7 @@ void compare(double seconds, std::vector<Runner>& runners) {
       runner.model.bias2 = std::max(runner.model.bias2, missing);
     runner.noise = runner.pilot.noise_of_blocks(scales);
     find_best(seconds, runner);
-    if (shows_nothing(lights[i]) && !std::all_of(lights.begin(), lights.end(), shows_nothing)) runner.error = kInfinity;
+    if (total(runner.light) == 0.0 && !all_black) runner.error = kInfinity;  // without light there is no noise either
   }
   std::stable_sort(runners.begin(), runners.end(),
                    [](const Runner& a, const Runner& b) { return a.high_error() < b.high_error(); });
@@ -130,7 +138,8 @@ std::string drop_behind(double alike, std::vector<Runner>& runners) {
   const auto is_behind = [&first = runners.front(), alike](const Runner& other) {
     if (std::isinf(other.error) || first.error > kNothingShown)
       return std::isinf(other.error) && !std::isinf(first.error);
-    return other.error > first.error * (alike + kSure * doubt_of_ratio(first.noise, other.noise));
+    return !may_have_missed(first, other) &&
+           other.error > first.error * (alike + kSure * doubt_of_ratio(first.noise, other.noise));
   };
   std::string names;
   for (size_t i = runners.size(); i-- > 1;)

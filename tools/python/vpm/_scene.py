@@ -163,14 +163,28 @@ def _without_arrays(source: Mapping[str, Any]) -> _Parts:
 
 
 def _medium(name: str, table: Any, parts: _Parts) -> Any:
+    table = _with_named_grid(name, "density", table, f"media.{name}", parts)
+    emission = table.get("emission") if isinstance(table, Mapping) else None
+    if not isinstance(emission, Mapping):
+        return table
+    emission = _with_named_grid(name, "emission", emission, f"media.{name}.emission", parts)
+    temperature = emission.get("temperature")
+    if isinstance(temperature, Mapping):
+        place = f"media.{name}.emission.temperature"
+        emission = {**emission, "temperature": _with_named_grid(name, "emission", temperature, place, parts)}
+    return {**table, "emission": emission}
+
+
+def _with_named_grid(medium: str, role: str, table: Any, place: str, parts: _Parts) -> Any:
+    """The table with a name in the place of the array that is its grid."""
     grid = table.get("grid") if isinstance(table, Mapping) else None
     if grid is None or isinstance(grid, str):
         return table
     try:
         grid = grid if isinstance(grid, Grid) else Grid(grid)
     except InputError as error:
-        raise InputError(f"media.{name}.grid: {error}") from None
-    parts.grids.append((name, "density", grid.values, grid.transform))
+        raise InputError(f"{place}.grid: {error}") from None
+    parts.grids.append((medium, role, grid.values, grid.transform))
     return {**table, "grid": repr(grid)}
 
 

@@ -163,6 +163,7 @@ CaseRunner runner_of(std::string_view file, std::string_view list) {
       {"s7_", "irradiance", run_irradiances},
       {"s7_", "cavities", run_cavities},
       {"s8_", "cases", run_slabs},
+      {"s9_", "cases", run_emission},
   };
   for (const Known& known : kKnown)
     if (file.starts_with(known.file) && list == known.list) return known.run;

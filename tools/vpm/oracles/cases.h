@@ -67,6 +67,9 @@ class OracleCase {
   std::string place_;
 };
 
+/// Scenes have floats.
+inline float as_float(double x) { return static_cast<float>(x); }
+
 /// What became of a case: its checks; or why there are none, or none that can fail.
 struct CaseResult {
   std::string id;
@@ -93,6 +96,7 @@ std::vector<CaseResult> run_spheres(const OracleList&, const Effort&);          
 std::vector<CaseResult> run_density_estimates(const OracleList&, const Effort&);  // S6
 std::vector<CaseResult> run_irradiances(const OracleList&, const Effort&);        // S7
 std::vector<CaseResult> run_cavities(const OracleList&, const Effort&);           // S7
+std::vector<CaseResult> run_emission(const OracleList&, const Effort&);           // S9
 
 /// What `run` makes of a case. One that it refuses, for a field that is missing or of a value that the framework does
 /// not know, stays unchecked.

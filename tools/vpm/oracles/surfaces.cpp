@@ -11,7 +11,6 @@
 namespace vpm::tools {
 namespace {
 
-float as_float(double x) { return static_cast<float>(x); }
 float radians_cosine(double degrees) { return as_float(std::cos(degrees * kPiD / 180.0)); }
 
 /// One light, or the distribution of lights whose mean it is.

@@ -276,8 +276,9 @@ float outside_density(const DensitySource& source, float background, uint64_t& c
     background = 0.0f;
   }
   if (background > 0.0f && !source.request.has_bounding_shape)
-    source.refuse(
-        fmt::format("has the background {}, which would fill all space; bound the medium by a shape", background));
+    source.refuse(fmt::format(
+        "has the background {}, {}", background,
+        source.request.density ? "which would fill all space; bound the medium by a shape" : "which must be 0 here"));
   return background;
 }
 
@@ -311,11 +312,13 @@ const VdbGridEntry& find_density(const VdbFile& file, const GridRequest& request
     throw InputError(fmt::format("{}: has no single grid named '{}'{}; {}", request.path, name,
                                  named ? "" : ": name another one with grid = \"...\"", file.layout.listing()));
   if (!entry->scalar())
-    file.refuse(entry->name, fmt::format("holds {} values; a density needs one number a voxel", entry->value_type()));
+    file.refuse(entry->name, fmt::format("holds {} values; one number a voxel is wanted", entry->value_type()));
   if (!entry->affine())
     file.refuse(entry->name, fmt::format("has a transform ({}) that is not affine", entry->map_type));
   if (entry->grid_class == "level set" && !request.from_level_set)
-    file.refuse(entry->name, "is a level set, not a density; from_level_set = true turns it into a fog volume");
+    file.refuse(entry->name, request.density
+                                 ? "is a level set, not a density; from_level_set = true turns it into a fog volume"
+                                 : "is a level set, which says nothing of what is emitted");
   return *entry;
 }
 

@@ -17,11 +17,11 @@
 namespace vpm {
 namespace {
 
-const ProceduralField& find_field(const std::string& name) {
-  if (const ProceduralField* field = find_procedural_field(name)) return *field;
+void check_field(const std::string& name) {
+  if (find_procedural_field(name)) return;
   std::string names;
   for (const ProceduralField& field : procedural_fields())
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", field.name);
+    if (field.grid == "density") names += fmt::format("{}{}", names.empty() ? "" : ", ", field.name);
   throw InputError(fmt::format("there is no medium '{}' to make; there are: {}", name, names));
 }
 
@@ -70,14 +70,21 @@ openvdb::FloatGrid::Ptr sample(const Lattice& lattice) {
   const Vec3d corner = lattice.corner();
   grid->setTransform(openvdb::math::Transform::createLinearTransform(lattice.voxel_size));
   grid->transform().postTranslate({corner.x, corner.y, corner.z});
-  grid->setName("density");
+  grid->setName(std::string(lattice.field.grid));
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   return grid;
 }
 
-void write_file(const openvdb::FloatGrid::Ptr& grid, const std::string& path) {
+openvdb::GridPtrVec sample_all(const std::string& name, int resolution) {
+  openvdb::GridPtrVec grids;
+  for (const ProceduralField& field : procedural_fields())
+    if (field.name == name) grids.push_back(sample(Lattice(field, resolution)));
+  return grids;
+}
+
+void write_file(const openvdb::GridPtrVec& grids, const std::string& path) {
   openvdb::io::File file(path);
-  file.write(openvdb::GridPtrVec{grid});
+  file.write(grids);
 }
 
 /// Replaces the random number of a file by one that follows from its other bytes.
@@ -139,14 +146,14 @@ void write_whole(Make&& make, const std::string& path) {
 }  // namespace
 
 void write_media_grid(const std::string& name, int resolution, const std::string& path) {
-  const ProceduralField& field = find_field(name);
+  check_field(name);
   if (resolution < 2 || resolution > 2048)
     throw InputError(fmt::format("resolution {}: must lie between 2 and 2048", resolution));
-  write_whole([&] { return sample(Lattice(field, resolution)); }, path);
+  write_whole([&] { return sample_all(name, resolution); }, path);
 }
 
 void write_grid(const GridValues& values, const std::string& path) {
-  write_whole([&] { return sparse_grid(values); }, path);
+  write_whole([&] { return openvdb::GridPtrVec{sparse_grid(values)}; }, path);
 }
 
 }  // namespace vpm

@@ -8,6 +8,7 @@
 #include "vpm/integrators/combined/eye_sub_path.h"
 #include "vpm/integrators/combined/light_sub_paths.h"
 #include "vpm/path/direct_light.h"
+#include "vpm/path/emission_along.h"
 
 namespace vpm {
 
@@ -26,16 +27,37 @@ void EyeSubPath::see_emitter(const PathVertex& at) {
   if (!is_black(emitted)) run_into(light, at.leg, at.hit.position, at.hit.normal, emitted);
 }
 
+void EyeSubPath::see_media() {
+  if (!c_.scene.has_emitting_media()) return;
+  std::vector<Rgb>& seen = work_.scratch.emitted;
+  seen.assign(c_.scene.media.size(), Rgb(0.0f));
+  const Ray& ray = at_.state.ray;
+  each_emission(c_.scene, ray, at_.state.medium, work_.counters.walk,
+                [&](MediumId medium, const Rgb& radiance) { seen[medium] += radiance; });
+  for (size_t medium = 0; medium < seen.size(); ++medium) {
+    if (is_black(seen[medium])) continue;
+    const int number = c_.scene.medium_light[medium];
+    const Departure start = depart_from_medium(c_.counts, c_.scene.lights[number], c_.scene.light_probability[number],
+                                               seen[medium], {ray.origin, -ray.direction});
+    run_into(start, leg_to(start, ray.origin, Rgb(1.0f)), {.starts = true}, ray.origin, seen[medium]);
+  }
+}
+
 void EyeSubPath::run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted) {
-  const Rgb seen = at_.state.throughput * emitted;
-  if (at_.only_specular) return add(Technique::connections, seen, 1.0);  // no other technique can find it
-  if (!c_.counts.light) return;
   const Light& light = c_.scene.lights[number];
   const EmissionDensity emission = emission_density(light, c_.scene.bounds, normal, -at_.state.ray.direction);
   const Departure start = depart_from_light(c_.counts, light, c_.scene.light_probability[number], emission,
                                             {point, -at_.state.ray.direction}, normal);
   const Junction at_light{
       .kind = is_infinite(light) ? Junction::Kind::free : Junction::Kind::surface, .normal = normal, .starts = true};
+  run_into(start, leg, at_light, point, emitted);
+}
+
+void EyeSubPath::run_into(const Departure& start, const Leg& leg, const Junction& at_light, const Vec3& point,
+                          const Rgb& emitted) {
+  const Rgb seen = at_.state.throughput * emitted;
+  if (at_.only_specular) return add(Technique::connections, seen, 1.0);  // no other technique can find it
+  if (!c_.counts.light) return;
   const Behind at_eye = techniques_behind(c_.counts, start, leg, at_.from.from, at_.from.point);
   const Behind further = techniques_behind(c_.counts, at_.from, leg, at_light, point);
   add(Technique::connections, seen, share_of_running_into(c_.counts, start, at_eye, at_.from, further));
@@ -59,6 +81,7 @@ void EyeSubPath::sample_light(const PathVertex& at, const Receiver& side) {
 
 void EyeSubPath::sample_light(const PathVertex& at, const Receiver& side, int number, float weight) {
   const Light& light = c_.scene.lights[number];
+  if (std::holds_alternative<VolumeLight>(light)) return sample_medium(at, side, number, weight);
   count(work_.counters.shadow_rays);
   const std::optional<Incident> incident = sample_towards(light, side.point, work_.rng);
   if (!incident || (at.on_surface && glm::dot(side.normal, incident->direction) <= 0.0f)) return;
@@ -77,6 +100,23 @@ void EyeSubPath::sample_light(const PathVertex& at, const Receiver& side, int nu
   const Behind at_eye = techniques_behind(c_.counts, start, leg, at, at.point);
   const Behind further = techniques_behind(c_.counts, eye, leg, at_light, point);
   const Rgb found = at_.state.throughput * scattered.value * incident->irradiance * passed * weight;
+  add(Technique::connections, found, share_of_connection(c_.counts, start, at_eye, eye, further));
+}
+
+void EyeSubPath::sample_medium(const PathVertex& at, const Receiver& side, int number, float weight) {
+  count(work_.counters.shadow_rays);
+  const ShadowRays rays{c_.scene, c_.transmittance, work_.rng, work_.counters.walk};
+  const DirectSample sample = sample_direct(rays, number, side);
+  if (is_black(sample.irradiance)) return;
+  const Scattered scattered = scattered_into(c_.scene, at, sample.direction, SubPath::eye);
+  if (is_black(scattered.value)) return;
+  const Departure start = depart_from_medium(c_.counts, c_.scene.lights[number], c_.scene.light_probability[number],
+                                             sample.irradiance * sample.pdf, {at.point, -sample.direction});
+  const Leg leg = leg_to(start, at.point, Rgb(1.0f));
+  const Departure eye = depart_into(at, sample.direction, scattered.densities);
+  const Behind at_eye = techniques_behind(c_.counts, start, leg, at, at.point);
+  const Behind further = techniques_behind(c_.counts, eye, leg, {.starts = true}, at.point);
+  const Rgb found = at_.state.throughput * scattered.value * sample.irradiance * weight;
   add(Technique::connections, found, share_of_connection(c_.counts, start, at_eye, eye, further));
 }
 

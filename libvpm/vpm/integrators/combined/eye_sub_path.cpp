@@ -29,6 +29,7 @@ KernelEstimate EyeSubPath::follow() {
 
 void EyeSubPath::follow_branch() {
   for (; at_.events < c_.max_events; ++at_.events) {
+    see_media();
     const std::optional<PathVertex> at = at_.only_specular ? pass_through() : fly();
     if (!at || !visit(*at)) return;
   }

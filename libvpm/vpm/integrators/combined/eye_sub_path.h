@@ -73,14 +73,20 @@ class EyeSubPath {
   // connections.cpp
   void see_environment(const Rgb& passed);
   void see_emitter(const PathVertex& at);
+  /// Adds what media emit along the ray, up to the first surface, wherever the sub-path collides.
+  void see_media();
   /// Adds the light that the sub-path has run into, at a point with that normal.
   void run_into(int number, const Leg& leg, const Vec3& point, const Vec3& normal, const Rgb& emitted);
+  /// Likewise where the light's sub-path departs so.
+  void run_into(const Departure& start, const Leg& leg, const Junction& at_light, const Vec3& point,
+                const Rgb& emitted);
   /// Samples a light, or each; on surfaces that light passes, for either side.
   void sample_light(const PathVertex& at);
   /// Seen from a place just off a surface: rays that are aimed from there meet what they are aimed at.
   void sample_light(const PathVertex& at, const Receiver& side);
   /// The light of that number, whose samples have the weight.
   void sample_light(const PathVertex& at, const Receiver& side, int number, float weight);
+  void sample_medium(const PathVertex& at, const Receiver& side, int number, float weight);
   /// Connects the vertex to some vertices of light sub-paths, drawn from all.
   void connect(const PathVertex& at);
   void connect_to(const PathVertex& at, const PathVertex& light);

@@ -55,9 +55,11 @@ void describe_combined(RenderSettings& s, Description& d) {
 }
 
 void check_combined(const RenderSettings& s, const SceneFacts& facts) {
-  refuse_if(facts.emitting_media, "integrator.type", "techniques are not combined where media emit",
-            "write \"photon-map\" or \"path\"");
   const TechniqueSet& techniques = s.combined.techniques;
+  const bool without_beams = techniques.has(Technique::connections) || techniques.has(Technique::points_2d);
+  refuse_if(facts.emitting_media && techniques.has(Technique::short_beams) && !without_beams, "integrator.techniques",
+            "first flights from media that emit are not kept as beams: what they bring to media would be lost",
+            "add \"connections\" or \"points-2d\"");
   refuse_if(facts.endless_flights && techniques.has(Technique::short_beams), "integrator.techniques",
             "flights have no end in a channel that the medium of the world does not attenuate",
             "leave out \"short-beams\", or put the scene into a box of the medium");

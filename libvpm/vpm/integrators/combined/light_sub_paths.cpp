@@ -4,7 +4,8 @@
 #include <optional>
 
 #include "vpm/base/counters.h"
-#include "vpm/path/direct_light.h"
+#include "vpm/path/emission_along.h"
+#include "vpm/photon/emission.h"
 #include "vpm/photon/recorder.h"
 #include "vpm/photon/thin_places.h"
 #include "vpm/surface/shading.h"
@@ -24,7 +25,7 @@ class LightSubPath {
   void trace() {
     if (connectable_) ++out_.connectable;
     emit();
-    follow();
+    if (!is_black(state_.throughput)) follow();
     out_.ledger.imbalance.add(balance_);
   }
 
@@ -47,14 +48,35 @@ class LightSubPath {
   void emit() {
     const PickedLight picked = pick_light(c_.scene, rng_.uniform_double());
     const Light& light = c_.scene.lights[picked.number];
+    if (const auto* volume = std::get_if<VolumeLight>(&light))
+      emit_from(*volume, picked);
+    else
+      emit_from(light, picked);
+    ++out_.ledger.emitted_count;
+    out_.ledger.emitted += Rgbd(state_.throughput);
+    balance_ -= Rgbd(state_.throughput);
+  }
+
+  void emit_from(const Light& light, const PickedLight& picked) {
     const Emission emission = vpm::emit(light, c_.scene.bounds, rng_);
     state_ = {emission.ray, medium_of_ray(c_.scene, c_.scene.light_medium[picked.number], emission.ray),
               emission.power / picked.probability};
     const EmissionDensity density = emission_density(light, c_.scene.bounds, emission.normal, emission.ray.direction);
     from_ = depart_from_light(c_.counts, light, picked.probability, density, emission.ray, emission.normal);
-    ++out_.ledger.emitted_count;
-    out_.ledger.emitted += Rgbd(state_.throughput);
-    balance_ -= Rgbd(state_.throughput);
+  }
+
+  void emit_from(const VolumeLight& volume, const PickedLight& picked) {
+    state_ = emit_from_medium(c_.scene, picked, draw_emission_numbers(rng_));
+    emitting_ = volume.medium;
+    from_ = depart_from_medium(c_.counts, c_.scene.lights[picked.number], picked.probability, Rgb(0.0f), state_.ray);
+  }
+
+  /// On the first flight from a medium that emits, the density of coming to a place is by the line that led there.
+  void come_to(const Receiver& place) {
+    if (!from_.from_medium) return;
+    const Ray back{place.point, -from_.direction};
+    const Rgb arriving = emission_of(emitting_, c_.scene, back, place.medium, out_.ledger.walk);
+    from_.forward = emission_density(c_.scene.lights[c_.scene.medium_light[emitting_]], arriving).flight;
   }
 
   /// Flies to the next vertex.
@@ -64,7 +86,8 @@ class LightSubPath {
     Rgb passed(1.0f);
     for (const Track& track : tracks_) {
       const Medium& medium = c_.scene.media[track.medium];
-      if (c_.counts.short_beams > 0.0 && medium.scatters() && track.interval.t1 > 0.0f) keep(track, passed);
+      if (c_.counts.short_beams > 0.0 && medium.scatters() && track.interval.t1 > 0.0f && !from_.from_medium)
+        keep(track, passed);
       keep_thin_photons(track, medium, passed);
       passed *= transmittance(medium, integral_along(medium, track, out_.ledger.walk));
     }
@@ -75,6 +98,8 @@ class LightSubPath {
     if (event.kind == EventKind::escape) lose(state_.throughput, out_.ledger.escaped);
     if (event.kind != EventKind::collision && event.kind != EventKind::surface) return std::nullopt;
     ++(event.kind == EventKind::collision ? out_.ledger.collisions : out_.ledger.surface_hits);
+    come_to(event.kind == EventKind::collision ? Receiver{state_.ray.origin, state_.medium}
+                                               : near_side(event.hit, state_.ray.direction, state_.medium));
     return arrive(c_.counts, c_.scene, from_, event, state_, passed);
   }
 
@@ -93,6 +118,7 @@ class LightSubPath {
       count(out_.ledger.walk.lookups, integral.lookups);
       count(out_.ledger.floored);
       const Vec3 point = track.ray.at(static_cast<float>(t));
+      come_to({point, track.medium});
       keep_photon(track.medium, point, leg_to(from_, point, before * transmittance(medium, integral.value)),
                   power_along(medium, track, integral.value, thin));
     });
@@ -142,7 +168,8 @@ class LightSubPath {
   Rng& rng_;
   PathState state_;
   Departure from_;
-  Rgbd balance_{0.0};  // gone minus emitted, W
+  MediumId emitting_ = kVacuum;  // that the sub-path began in
+  Rgbd balance_{0.0};            // gone minus emitted, W
 };
 
 }  // namespace

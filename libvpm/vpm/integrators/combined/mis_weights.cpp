@@ -40,7 +40,7 @@ double arrival(const Junction& at, const Vec3& direction, const Leg& leg) {
 Departure depart_from_light(const TechniqueCounts& counts, const Light& light, double chosen,
                             const EmissionDensity& emission, const Ray& ray, const Vec3& normal) {
   Departure start;
-  if (!is_infinite(light) && can_be_hit(light)) start.from = {Junction::Kind::surface, normal};
+  if (!emission.parallel && can_be_hit(light)) start.from = {Junction::Kind::surface, normal};
   start.point = ray.origin;
   start.direction = ray.direction;
   start.forward = emission.flight;
@@ -48,6 +48,13 @@ Departure depart_from_light(const TechniqueCounts& counts, const Light& light, d
   start.light = counts.light ? &light : nullptr;
   start.place = counts.each_light ? chosen * emission.place : emission.place;
   start.parallel = emission.parallel;
+  return start;
+}
+
+Departure depart_from_medium(const TechniqueCounts& counts, const Light& light, double chosen, const Rgb& arriving,
+                             const Ray& ray) {
+  Departure start = depart_from_light(counts, light, chosen, emission_density(light, arriving), ray, Vec3(0.0f));
+  start.from_medium = true;
   return start;
 }
 
@@ -91,6 +98,7 @@ Departure depart(const TechniqueCounts& counts, const PathVertex& at, const Vec3
 
 Leg leg_to(const Departure& departure, const Vec3& point, const Rgb& transmittance) {
   constexpr double kLeast = 1e-9;  // m: rounding may put two vertices into one point
+  if (departure.from_medium) return {Rgb(1.0f), 1.0, false};
   if (departure.parallel) return {transmittance, 1.0};
   return {transmittance, std::max(kLeast, glm::distance(Vec3d(departure.point), Vec3d(point)))};
 }
@@ -156,7 +164,9 @@ PathVertex arrive(const TechniqueCounts& counts, const Scene& scene, const Depar
   return vertex;
 }
 
-double passing(const Rgb& sigma_t, const Leg& leg) { return leg.mean() * (1.0 / colliding(sigma_t, leg)); }
+double passing(const Rgb& sigma_t, const Leg& leg) {
+  return leg.crossed ? leg.mean() * (1.0 / colliding(sigma_t, leg)) : 0.0;
+}
 
 double points_3d_merged(const TechniqueCounts& counts, const Junction& there, bool first) {
   return counts.merges_points_3d(first) ? counts.weigh(counts.points_3d * there.kept) : 0.0;

@@ -83,6 +83,7 @@ struct Departure {
   double place = 1.0;            // the density of emission there, EmissionDensity::place, over the number of samples of
                                  // the light for each start on it
   bool parallel = false;         // does light not spread from here?
+  bool from_medium = false;      // is this a start anywhere on the line, in a medium that emits?
   bool camera = false;           // is this the start at the camera?
   // Of merges at a vertex in a medium, of which the leg to come is one of the two:
   bool merges = false;
@@ -95,6 +96,10 @@ struct Departure {
 /// A start on a light that is chosen with the probability `chosen`, at a point with that normal.
 Departure depart_from_light(const TechniqueCounts& counts, const Light& light, double chosen,
                             const EmissionDensity& emission, const Ray& ray, const Vec3& normal);
+/// A start in a medium that emits, anywhere on the line over which all that it emits is `arriving`, W/(m^2 sr), where
+/// the sub-path goes on. That is as if light came in parallel; how much of it gets there is in its density.
+Departure depart_from_medium(const TechniqueCounts& counts, const Light& light, double chosen, const Rgb& arriving,
+                             const Ray& ray);
 /// A start at the camera, whose directions have the density `forward`, 1/sr.
 Departure depart_from_camera(const TechniqueCounts& counts, const Ray& ray, double forward);
 /// Goes on from a vertex along `direction` (unit). `first` says whether it is, from the eye, the first vertex that is
@@ -122,7 +127,8 @@ void arrive(const TechniqueCounts& counts, const Departure& departure, PathVerte
 PathVertex arrive(const TechniqueCounts& counts, const Scene& scene, const Departure& departure, const Event& event,
                   const PathState& state, const Rgb& passed);
 
-/// How far a leg takes photons for each that collides at its end, m: beams pass where their photons need not collide.
+/// How far a leg takes photons for each that collides at its end, m: beams pass where their photons need not collide. 0
+/// of legs that are not crossed.
 double passing(const Rgb& sigma_t, const Leg& leg);
 /// The density of points-3d at a place in a medium, over the densities of its two sub-paths, as the heuristic weighs
 /// it; `first` as in depart().

@@ -14,6 +14,7 @@ enum class SubPath { light, eye };
 struct Leg {
   Rgb transmittance{1.0f};
   double distance = 0.0;  // m; 1 for parallel light, which has no falloff by 1/distance^2
+  bool crossed = true;    // are flights of photons over it kept for rays to cross?
 
   double mean() const { return mean_channel(transmittance); }
   double per_square() const { return 1.0 / (distance * distance); }

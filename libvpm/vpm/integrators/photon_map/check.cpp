@@ -53,7 +53,7 @@ void check_photon_maps(const RenderSettings& s, const SceneFacts& facts) {
   check_blocks(s);
   if (s.volume.info().check) s.volume.info().check(s, facts);
   check_surface_map(s);
-  check_final_gather(s, facts);
+  check_final_gather(s);
   check_pixel_radii(s);
   check_transmittance(s, facts);
 }

@@ -274,11 +274,13 @@ bool DensityGrid::is_positive(const Box& world) const {
 
 float DensityGrid::largest(const Vec3d& lo, const Vec3d& hi) const {
   constexpr double kRounding = 1e-6;  // voxels
-  constexpr double kMany = 4096.0;
+  constexpr double kFew = 27.0;
   const double reach = frame_.interpolation == Interpolation::nearest ? 0.5 : 1.0;  // of a voxel's value
-  const Vec3d first = glm::ceil(lo + kRounding - reach), last = glm::floor(hi - kRounding + reach);
+  const Vec3d first = glm::max(glm::ceil(lo + kRounding - reach), Vec3d(frame_.lo) - 1.0);
+  const Vec3d last = glm::min(glm::floor(hi - kRounding + reach), Vec3d(frame_.hi) + 1.0);
+  if (glm::any(glm::greaterThan(first, last))) return frame_.background;
   const Vec3d count = last - first + 1.0;
-  if (count.x * count.y * count.z > kMany) return max_density_;
+  if (count.x * count.y * count.z > kFew) return largest_of_voxels(Vec3i(first), Vec3i(last));
   float most = 0.0f;
   for (double z = first.z; z <= last.z; ++z)
     for (double y = first.y; y <= last.y; ++y)
@@ -289,6 +291,41 @@ float DensityGrid::largest(const Vec3d& lo, const Vec3d& hi) const {
         most = std::max(most, density_at(at - lattice_lo_));
       }
   return most;
+}
+
+float DensityGrid::largest_of_voxels(const Vec3i& first, const Vec3i& last) const {
+  const auto brick_of_voxel = [](const Vec3i& voxel) {
+    return Vec3i(floor_div(voxel.x, kCells), floor_div(voxel.y, kCells), floor_div(voxel.z, kCells));
+  };
+  const Vec3i from = glm::max(brick_of_voxel(first) - brick_lo_, Vec3i(0));
+  const Vec3i to = glm::min(brick_of_voxel(last) - brick_lo_, brick_count_ - 1);
+  float most = frame_.background;
+  for (int z = from.z; z <= to.z; ++z)
+    for (int y = from.y; y <= to.y; ++y)
+      for (int x = from.x; x <= to.x; ++x) {
+        const Vec3i at(x, y, z), corner = (brick_lo_ + at) * kCells;
+        const BrickBox* const box = boxes_.find(at);
+        if (!box) continue;
+        const Brick& brick = bricks_[box->number(at)];
+        if (brick.max <= most) continue;
+        const Vec3i lo = glm::max(first - corner, Vec3i(0)), hi = glm::min(last - corner, Vec3i(kCells - 1));
+        if (brick.uniform() || glm::all(glm::equal(hi - lo, Vec3i(kCells - 1)))) {
+          most = brick.max;
+          continue;
+        }
+        const float* const values = values_of(brick);
+        for (int k = lo.z; k <= hi.z; ++k)
+          for (int j = lo.y; j <= hi.y; ++j)
+            for (int i = lo.x; i <= hi.x; ++i) most = std::max(most, values[(k * kValues + j) * kValues + i]);
+      }
+  return most;
+}
+
+std::vector<IndexBox> DensityGrid::filled() const {
+  std::vector<IndexBox> boxes;
+  for (size_t number = 0; number < bricks_.size(); ++number)
+    if (bricks_[number].max > 0.0f) boxes.push_back({origin_of(number), origin_of(number) + (kCells - 1)});
+  return boxes;
 }
 
 float DensityGrid::density_in_boxes(const Vec3d& p) const {

@@ -81,8 +81,12 @@ class DensityGrid {
   /// Is the density positive everywhere in a box of the world? Whole bricks decide: the answer may be no only because
   /// the density is zero outside the box, in a brick that the box reaches into.
   bool is_positive(const Box& world) const;
-  /// The largest density in a box of index coordinates, or more: of many voxels it is that of all.
+  /// The largest density in a box of index coordinates, or, where the box is larger than a few voxels, of any voxel
+  /// that reaches into it.
   float largest(const Vec3d& lo, const Vec3d& hi) const;
+  /// The boxes of voxels, both ends included, of the bricks that hold any density above 0, in their order. Each voxel
+  /// with one is in exactly one of them.
+  std::vector<IndexBox> filled() const;
   /// Calls visit(const DensityPiece&) for the pieces of the ray, in order, until it returns false. Bricks of zero
   /// density are skipped. Returns the number of cells and uniform bricks that were read ("look-ups").
   template <class Visit>
@@ -164,6 +168,8 @@ class DensityGrid {
   Place find(const Vec3d& p) const;
   /// The density at p where it is not. Not inline: loops of look-ups are quicker without a call to BrickBoxes::find().
   float density_in_boxes(const Vec3d& p) const;
+  /// The largest value of the voxels from `first` to `last`, in index coordinates.
+  float largest_of_voxels(const Vec3i& first, const Vec3i& last) const;
   /// densities() where boxes_ is whole().
   void densities_in_box(const LatticeRay& ray, double t, double step, std::span<float> densities) const;
   /// The place of p in the brick that holds it, with the cell that does.

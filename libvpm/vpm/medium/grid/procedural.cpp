@@ -209,6 +209,48 @@ float cloud(const Vec3& unit) {
   return body * texture * inside_cube(unit, 0.02f);
 }
 
+// Fire
+// ----------------------------------------------------------------------------------------------------
+
+constexpr Vec3 kFireSize(0.7f, 1.2f, 0.7f);  // m
+
+/// A place of the fire, m from the middle of its base, as it would be in still air: stirred more the higher it is.
+Vec3 in_still_air(const Vec3& unit) {
+  const Vec3 p = (unit - Vec3(0.5f, 0.0f, 0.5f)) * kFireSize;
+  const float stirred = smooth_step(0.0f, 0.4f, p.y);
+  const Vec3 swirl = 0.028f * curl_noise(5.5f * p, 151) + 0.008f * curl_noise(16.0f * p, 161);
+  return p + stirred * swirl;
+}
+
+/// 1 in the middle of the flame, 0 outside of it.
+float flame(const Vec3& unit) {
+  constexpr float kHeight = 0.42f;  // m
+  const Vec3 p = in_still_air(unit);
+  const float tongues = fractal_noise(Vec3(12.0f, 6.0f, 12.0f) * p, 4, 171);
+  const float left = 1.0f - p.y / (kHeight * (1.0f + 0.3f * tongues));  // of its height
+  if (left <= 0.0f) return 0.0f;
+  const float radius = 0.1f * std::sqrt(left) * (0.6f + 0.9f * left * (1.0f - left) + 0.4f * (1.0f - left));
+  const float depth = 1.0f - std::sqrt(p.x * p.x + p.z * p.z) / radius + 0.45f * tongues;
+  return smooth_step(0.0f, 0.8f, depth) * smooth_step(0.005f, 0.05f, p.y) * inside_cube(unit, 0.02f);
+}
+
+/// Smoke above the flame, and a little soot within it, which is what glows.
+float fire_density(const Vec3& unit) {
+  const Vec3 p = in_still_air(unit);
+  const float radius = 0.05f + 0.17f * p.y, height = p.y;
+  const float wisps = fractal_noise(13.0f * p, 4, 181), billows = billow_noise(10.0f * p, 5, 191);
+  const float depth = 1.0f - std::sqrt(p.x * p.x + p.z * p.z) / radius + 0.9f * billows - 0.3f + 0.3f * wisps;
+  const float ends = smooth_step(0.22f, 0.5f, height) * smooth_step(1.17f, 0.75f, height + 0.1f * wisps);
+  const float smoke = smooth_step(0.0f, 0.5f, depth) * ends * (1.0f - 0.4f * smooth_step(0.5f, 1.1f, height));
+  return std::max(0.9f * smoke * inside_cube(unit, 0.02f), 0.3f * smooth_step(0.0f, 0.3f, flame(unit)));
+}
+
+/// Kelvin: 1100 to 2000 in the flame, no more than 600 in the smoke.
+float fire_temperature(const Vec3& unit) {
+  const float inside = flame(unit);
+  return inside > 0.0f ? 1100.0f + 900.0f * inside : 600.0f * fire_density(unit);
+}
+
 // Shapes with known answers
 // ----------------------------------------------------------------------------------------------------
 
@@ -230,9 +272,12 @@ float gaussian(const Vec3& unit) {
 
 float random(const Vec3& unit) { return value_noise(8.0f * unit, 141); }
 
-constexpr std::array<ProceduralField, 7> kFields = {{
+constexpr std::array<ProceduralField, 10> kFields = {{
     {"smoke", "a turbulent plume of smoke that rises and widens", kSmokeSize, smoke},
     {"cloud", "a cumulus cloud with a flat base", kCloudSize, cloud},
+    {"fire", "a flame of soot and the smoke above it: density, temperature, flame", kFireSize, fire_density},
+    {"fire", "kelvin", kFireSize, fire_temperature, "temperature"},
+    {"fire", "0 to 1", kFireSize, flame, "flame"},
     {"constant", "1 everywhere", kUnitSize, constant},
     {"ramp", "0 to 1 along x", kUnitSize, ramp},
     {"checker", "4 x 4 x 4 cubes of 1 and 0 by turns", kUnitSize, checker},

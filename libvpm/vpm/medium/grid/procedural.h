@@ -1,5 +1,5 @@
-// Density fields given by formulas: a smoke plume, a cumulus cloud, and simple shapes whose answers are known. And the
-// noise in them: lattice noise from integer hashes, with its gradient, the same bits on every machine.
+// Density fields given by formulas: a smoke plume, a cumulus cloud, a fire, and simple shapes whose answers are known.
+// And the noise in them: lattice noise from integer hashes, with its gradient, the same bits on every machine.
 #pragma once
 
 #include <span>
@@ -38,14 +38,16 @@ Vec3 curl_noise(const Vec3& p, uint32_t seed);
 struct ProceduralField {
   std::string_view name;
   std::string_view summary;
-  Vec3 world_size;                   // m, of the box that the unit cube stands for
-  float (*value)(const Vec3& unit);  // density at a point of [0, 1]^3: finite, >= 0, at most 1; y points up
+  Vec3 world_size;                    // m, of the box that the unit cube stands for
+  float (*value)(const Vec3& unit);   // at a point of [0, 1]^3: finite, >= 0, a density at most 1; y points up
+  std::string_view grid = "density";  // its name in a file; temperatures are in kelvin
 };
 
-/// All fields. Their values are pure functions of the position.
+/// All fields. Their values are pure functions of the position. Those of one name belong into one file, the density
+/// first.
 std::span<const ProceduralField> procedural_fields();
 
-/// The field of that name, or null.
+/// The first field of that name, or null.
 const ProceduralField* find_procedural_field(std::string_view name);
 
 }  // namespace vpm

@@ -177,10 +177,8 @@ bool FinalGather::is_too_short(float length, const SurfaceView& view, EyeWork& w
                                           length < scattered_radius(view.material, view.hit, -view.travel, map));
 }
 
-void check_final_gather(const RenderSettings& s, const SceneFacts& facts) {
+void check_final_gather(const RenderSettings& s) {
   if (s.indirect.type != IndirectLight::final_gather) return;
-  refuse_if(facts.emitting_media, "integrator.indirect.type", "rays of final gathering do not see what media emit",
-            "write \"photons\", or leave out [integrator.indirect]");
   const bool precomputed = s.indirect.irradiance == EndIrradiance::precomputed;
   refuse_count_in_blocks(s, s.caustics, "integrator.caustics.type", "write \"radius\"");
   refuse_in_blocks(s, s.indirect.rays_by == GatherBy::photons, "integrator.indirect.rays_by",

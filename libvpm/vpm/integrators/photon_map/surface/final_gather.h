@@ -27,7 +27,7 @@
 namespace vpm {
 
 /// What final gathering asks of other settings.
-void check_final_gather(const RenderSettings& settings, const SceneFacts& facts);
+void check_final_gather(const RenderSettings& settings);
 
 class FinalGather final : public SurfaceEstimator {
  public:
