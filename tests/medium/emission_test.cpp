@@ -142,7 +142,7 @@ double by_small_steps(const Medium& medium, const Ray& ray) {
 /// Where the grid of temperatures is 0 nothing glows, whatever the offset is.
 TEST(Emission, ByAnOffsetEndsWithItsGrid) {
   Medium medium = emitting_grids(0.9f, 1.6f);
-  medium.emission_grid = make_grid(centered_frame(3, 0.2), lattice_noise);
+  medium.emission_grid = turned_grid(3, lattice_noise);
   medium.emission->blackbody = true;
   medium.emission->scale = 400.0;
   medium.emission->offset = 1500.0;
