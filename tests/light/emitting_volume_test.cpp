@@ -30,11 +30,36 @@ TEST(EmittingVolume, HasThePowerOfTheIntegral) {
 TEST(EmittingVolume, OfAnEvenMediumFillsTheBoxAround) {
   Medium medium = make_medium(nullptr, Rgb(2.0f), 0.25f);
   medium.emission = MediumEmission{.colour = Rgb(1.0f, 2.0f, 3.0f)};
-  const EmittingVolume volume(medium, {Vec3(1.0f), Vec3(3.0f, 4.0f, 5.0f)});
+  const EmittingVolume volume(medium, {Box{Vec3(1.0f), Vec3(3.0f, 4.0f, 5.0f)}});
   EXPECT_NEAR(volume.power().b, 4.0 * kPiD * 1.5 * 3.0 * 24.0, 1e-2);
   EXPECT_NEAR(volume.bound(), 4.0 * kPiD * 1.5 * 2.0 * 24.0, 1e-1);
   EXPECT_EQ(volume.bounds().lo, Vec3(1.0f));
   EXPECT_EQ(volume.bounds().hi, Vec3(3.0f, 4.0f, 5.0f));
+}
+
+/// Boxes far from each other: cells of their own, not one around all.
+TEST(EmittingVolume, OfFarBoxesHasCellsInThem) {
+  Medium medium = make_medium(nullptr, Rgb(2.0f), 0.25f);
+  medium.emission = MediumEmission{.colour = Rgb(1.0f)};
+  const std::vector<Box> boxes{{Vec3(0.0f), Vec3(0.02f, 0.1f, 0.02f)}, {Vec3(5.0f), Vec3(5.02f, 5.1f, 5.02f)}};
+  const EmittingVolume volume(medium, boxes);
+  const double within = 4.0 * kPiD * 1.5 * 2.0 * 0.02 * 0.1 * 0.02;
+  EXPECT_GE(volume.power().g, 0.999 * within);
+  EXPECT_LT(volume.power().g, 2.0 * within);
+  Rng rng = test_rng(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 at = draw(volume, rng).position;
+    EXPECT_TRUE(at.x < 0.03f || at.x > 4.99f) << at.x;
+  }
+}
+
+/// What of a grid no shape holds is no cell.
+TEST(EmittingVolume, OfAGridThatAShapeCropsHasItsCells) {
+  const Medium medium = emitting_grids(0.9f, 0.0f);
+  const double all = EmittingVolume(medium, {}).bound();
+  const double cropped = EmittingVolume(medium, {Box{Vec3(0.0f, 1.2f, 2.0f), Vec3(0.2f, 1.4f, 2.2f)}}).bound();
+  EXPECT_GT(cropped, 0.0);
+  EXPECT_LT(cropped, 0.05 * all);
 }
 
 /// By volume it fills its shape, whatever the density.
@@ -42,14 +67,14 @@ TEST(EmittingVolume, ByVolumeFillsTheBoxAround) {
   Medium medium = emitting_grids(0.9f, 0.0f);
   medium.emission_grid = nullptr;
   medium.emission->meaning = MediumEmission::Meaning::volume;
-  EXPECT_NEAR(EmittingVolume(medium, {Vec3(-10.0f), Vec3(10.0f)}).power().g, 4.0 * kPiD * 8000.0, 1.0);
+  EXPECT_NEAR(EmittingVolume(medium, {Box{Vec3(-10.0f), Vec3(10.0f)}}).power().g, 4.0 * kPiD * 8000.0, 1.0);
 }
 
 TEST(EmittingVolume, ThatEmitsNothingIsRefused) {
   Medium medium = make_medium(nullptr, Rgb(2.0f), 1.0f);
   medium.emission = MediumEmission{.colour = Rgb(1.0f)};
   medium.name = "milk";
-  EXPECT_THROW(EmittingVolume(medium, {Vec3(0.0f), Vec3(1.0f)}), InputError);
+  EXPECT_THROW(EmittingVolume(medium, {Box{Vec3(0.0f), Vec3(1.0f)}}), InputError);
 }
 
 /// What survives where the bound is cut down to the emission lies where it is emitted.

@@ -31,7 +31,8 @@ TEST(Blackbody, HasTheColourOfPlancksLaw) {
 TEST(Blackbody, IsThatSumInSrgbClamped) {
   Rng rng(1, rng_stream(RngUse::test, 0), 0);
   for (int i = 0; i < 2000; ++i) {
-    const double kelvin = 401.0 + 21'000.0 * rng.uniform_double();  // beyond the table's end, too
+    double kelvin = 401.0 + 21'000.0 * rng.uniform_double();
+    if (i % 4 == 0) kelvin *= std::exp(8.0 * rng.uniform_double());
     const Rgbd exact = linear_srgb_of_xyz(blackbody_xyz(kelvin)), looked_up = blackbody(kelvin);
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(looked_up[c], std::max(0.0, exact[c]), 1e-6 * max_channel(Rgb(exact))) << kelvin;

@@ -60,8 +60,9 @@ void print_emission(const Medium& m) {
   const MediumEmission& e = *m.emission;
   const DensityGrid* grid = m.emission_grid.get();
   if (e.blackbody)
-    fmt::print("  emits as a black body of {:.6g} + {:.6g} times the value of its grid: {:.6g} K at the largest\n",
-               e.offset, e.scale, e.kelvin(grid ? grid->max_density() : 1.0));
+    fmt::print("  emits {}as a black body of {:.6g} + {:.6g} times the value of its grid: {:.6g} K at the largest\n",
+               e.colour == Rgb(1.0f) ? "" : rgb(e.colour) + " times ", e.offset, e.scale,
+               e.kelvin(grid ? grid->max_density() : 1.0));
   else if (e.meaning == MediumEmission::Meaning::thermal)
     fmt::print("  emits with absorption and density: a thick layer is of the radiance {} W/(m^2 sr){}\n", rgb(e.colour),
                grid ? " times the value of its grid" : "");
@@ -81,7 +82,7 @@ std::string power_text(const Light& light, const Box& bounds) {
   const Rgb power = light_power(light, bounds);
   const std::string watts = fmt::format("power {} W", rgb(power));
   if (!std::holds_alternative<VolumeLight>(light)) return watts;
-  return fmt::format("{}, {:.6g} lm", watts, kLumens * luminance(power));
+  return fmt::format("{}, about {:.4g} lm", watts, kLumens * luminance(power));
 }
 
 void print_medium(const Medium& m) {

@@ -26,8 +26,8 @@ void check_outputs(const Outputs& outputs, uint64_t pixels, bool checkpoint, con
 /// Writes the PNG preview of a picture, exposed by so many stops or else by auto_exposure() of `exposed_by`.
 void write_preview(const Outputs& outputs, const std::optional<float>& exposure, const Image& picture,
                    const Image& exposed_by);
-/// The picture of a scene without the pixels that show media which emit more than anything else, unless hardly any
-/// others are lit: fire is often far brighter than what it lights, by which exposures go.
+/// The picture of a scene without the pixels that show, straight on, media which emit more than anything else, unless
+/// hardly any others are lit: fire is often far brighter than what it lights, by which exposures go.
 Image without_fire(const Scene& scene, Image picture);
 
 /// The seed and the number of passes.

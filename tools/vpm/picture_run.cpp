@@ -103,7 +103,7 @@ void write_outputs(const Outputs& outputs, const std::optional<float>& exposure,
                    const RenderResult& result) {
   write_picture(outputs.exr, job, result);
   const Image picture = result.film.mean();
-  write_preview(outputs, exposure, picture, without_fire(job.scene, picture));
+  write_preview(outputs, exposure, picture, exposure ? picture : without_fire(job.scene, picture));
   write_text(outputs.json, render_report(job, outputs.exr.string(), result));
 }
 

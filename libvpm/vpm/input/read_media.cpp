@@ -101,6 +101,8 @@ void read_temperature(TableReader& emission, Medium& medium, std::vector<GridPla
 
 void read_emission(TableReader& medium_table, Medium& medium, std::vector<GridPlan>& grids, const GivenParts& given) {
   std::optional<TableReader> table = medium_table.table("emission", "'emission' of " + medium_table.title());
+  if (!table && medium_table.has("emission_scale"))
+    medium_table.fail("emission_scale", "there is no 'emission' that it would scale", "add emission = { ... }");
   if (!table) return;
   const bool radiance = table->has("radiance"), power = table->has("power"), temperature = table->has("temperature");
   if (radiance + power + temperature != 1)

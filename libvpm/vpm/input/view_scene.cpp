@@ -11,6 +11,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/letters.h"
+#include "vpm/medium/emission.h"
 #include "vpm/medium/grid/density_grid_walk.h"
 
 namespace vpm {
@@ -180,42 +181,53 @@ std::string bounds_text(const std::optional<Box>& bounds) {
       toml_vector(bounds->lo), toml_vector(bounds->hi));
 }
 
-/// What a file has beside the density that may glow: temperatures first. Files do not say what their numbers mean.
-std::optional<ShownFire> find_fire(const std::string& path, const std::vector<GridSummary>& grids) {
-  constexpr double kCold = 700.0, kHot = 20'000.0, kUsual = 2000.0;  // K
-  constexpr double kFlameCold = 1500.0, kFlameHot = 3000.0;          // K: as Blender shows flames of 0 to 1
-  struct GlowingGrid {
-    std::string grid;
-    double largest = 0.0;
-  };
-  const auto find = [&](std::initializer_list<std::string_view> names) -> std::optional<GlowingGrid> {
-    for (const std::string_view name : names)
-      for (const GridSummary& grid : grids) {
-        if (small_letters(grid.name) != name || !holds_values(grid) || is_level_set(grid)) continue;
-        const GridRequest request{.path = path, .name = grid.name, .density = false};
-        const double largest = load_grid(request).grid->max_density();
-        if (largest > 0.0) return GlowingGrid{grid.name, largest};
+/// The largest value of the first grid of these names beside that of the density; nothing where there is none above 0.
+struct LargestOfGrid {
+  std::string grid;
+  double value = 0.0;
+};
+std::optional<LargestOfGrid> find_glowing(const std::string& path, const std::vector<GridSummary>& grids,
+                                          const std::string& density, std::initializer_list<std::string_view> names,
+                                          std::vector<std::string>& notes) {
+  for (const std::string_view name : names)
+    for (const GridSummary& grid : grids) {
+      if (small_letters(grid.name) != name || grid.name == density || !holds_values(grid) || is_level_set(grid))
+        continue;
+      try {
+        const double largest = load_grid({.path = path, .name = grid.name, .density = false}).grid->max_density();
+        if (largest > 0.0) return LargestOfGrid{grid.name, largest};
+      } catch (const InputError& error) {
+        notes.push_back(fmt::format("grid '{}' is not shown as fire: {}", grid.name, error.what()));
       }
-    return std::nullopt;
+    }
+  return std::nullopt;
+}
+
+/// What a file has beside the density that may glow: temperatures first. Files do not say what their numbers mean.
+std::optional<ShownFire> find_fire(const std::string& path, const std::vector<GridSummary>& grids,
+                                   const std::string& density, std::vector<std::string>& notes) {
+  constexpr double kUsual = 2000.0, kAmbient = 200.0;        // K
+  constexpr double kFlameCold = 1500.0, kFlameHot = 3000.0;  // K: as Blender shows flames of 0 to 1
+  const auto find = [&](std::initializer_list<std::string_view> names) {
+    return find_glowing(path, grids, density, names, notes);
   };
-  const std::optional<GlowingGrid> temperature = find({"temperature", "temperatures", "heat"});
-  if (temperature && temperature->largest >= kCold && temperature->largest <= kHot)
-    return ShownFire{temperature->grid, fmt::format("in kelvin, up to {:.4g}", temperature->largest)};
-  const std::optional<GlowingGrid> flame = find({"flame", "flames", "fire", "burn"});
-  if (flame && flame->largest <= 1.0)
-    return ShownFire{flame->grid, fmt::format("0 to 1 as {:g} to {:g} K", kFlameCold, kFlameHot),
+  const std::optional<LargestOfGrid> temperature = find({"temperature", "temperatures", "heat"});
+  if (temperature && temperature->value >= kColdestFire && temperature->value <= kHottestFire)
+    return ShownFire{temperature->grid, fmt::format("as kelvin, up to {:.4g}", temperature->value)};
+  const std::optional<LargestOfGrid> flame = find({"flame", "flames", "fire", "burn"});
+  if (flame && flame->value <= 1.0)
+    return ShownFire{flame->grid, fmt::format("of 0 to 1 as {:g} to {:g} K", kFlameCold, kFlameHot),
                      kFlameHot - kFlameCold, kFlameCold};
-  const std::optional<GlowingGrid>& other = temperature ? temperature : flame;
-  if (!other) return std::nullopt;
-  return ShownFire{other->grid, fmt::format("such that the largest, {:.4g}, is {:g} K", other->largest, kUsual),
-                   kUsual / other->largest};
+  const std::optional<LargestOfGrid>& other = temperature ? temperature : flame;
+  if (!other || (other->value >= kAmbient && other->value < kColdestFire)) return std::nullopt;  // air or warm smoke
+  return ShownFire{other->grid, fmt::format("such that the largest, {:.4g}, is {:g} K", other->value, kUsual),
+                   kUsual / other->value};
 }
 
 std::string emission_text(const std::optional<ShownFire>& fire) {
   if (!fire) return "";
   return fmt::format(
-      "emission = {{ temperature = {{ grid = {}, scale = {:.6g}, offset = {:g} }} }}  # {}: kelvin are offset + scale "
-      "* "
+      "emission = {{ temperature = {{ grid = {}, scale = {:.6g}, offset = {:g} }} }}  # values {}: offset + scale * "
       "value\n",
       toml_string(fire->grid), fire->scale, fire->offset, fire->reading);
 }
@@ -354,7 +366,7 @@ ViewScene make_view_scene(const std::string& path, const std::string& path_in_sc
                           path, name, kColumns, kColumns)
             : fmt::format("{}: the grid '{}' is 0 everywhere", path, name));
   const double sigma_t = wishes.optical_depth / part.depth;
-  const std::optional<ShownFire> fire = find_fire(path, grids);
+  const std::optional<ShownFire> fire = find_fire(path, grids, name, scene.notes);
   scene.text = scene_text({path_in_scene, name, level_set, scene.request.clamp_negative, bounds, fire}, sigma_t, wishes,
                           stage_for(part.box, wishes));
   scene.notes.push_back(
@@ -362,8 +374,8 @@ ViewScene make_view_scene(const std::string& path, const std::string& path_in_sc
                   name, level_set ? ", a level set, as a fog of density 1 inside" : "", sigma_t, wishes.optical_depth));
   if (fire)
     scene.notes.push_back(fmt::format(
-        "grid '{}' glows, its values read {}: --set media.medium.emission.temperature.scale=..., or .offset, says "
-        "otherwise, --set media.medium.emission_scale=0.1 dims it",
+        "grid '{}' glows, its values read {} unless --set media.medium.emission.temperature.scale=..., or .offset, "
+        "says otherwise; --set media.medium.emission_scale=0.1 dims it",
         fire->grid, fire->reading));
   return scene;
 }

@@ -72,7 +72,8 @@ ChosenRadius narrow(const ChosenRadius& chosen, const OpenRadius& open, const Sc
   const char* bound = "1 % of the scene's or the grid's diagonal";
   if (media && open.density) {
     const double thin = std::max(open.density->thickness, kHalfPixel * open.density->footprint);
-    if (thin < double{most}) std::tie(most, bound) = std::pair(rounded_radius(thin), "the thickness of the medium");
+    if (thin < double{most})
+      std::tie(most, bound) = std::pair(rounded_radius(thin), "the thickness of the medium, or half a pixel");
   }
   if (chosen.radius <= most) return chosen;
   return {most, fmt::format("{}, as merges are not corrected at borders; photon maps would have {:.3g} m: {}", bound,

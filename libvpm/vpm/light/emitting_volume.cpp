@@ -16,11 +16,28 @@ namespace {
 constexpr double kAbove = 1e-5;  // by which a bound is higher, relative
 constexpr double kMostCells = double{1 << 22};
 
-/// Cells, and the boxes of them that may emit; none: all.
+/// Cells; the boxes of them that may emit; and the boxes of the world that these must reach into, m. None: all.
 struct Cells {
   GridFrame frame;
   std::vector<IndexBox> filled{};
+  std::vector<Box> within{};
+
+  bool may_emit(const Vec3i& cell) const {
+    if (glm::any(glm::lessThan(cell, frame.lo)) || glm::any(glm::greaterThan(cell, frame.hi))) return false;
+    const Mat3d axes(frame.index_to_world);
+    const Vec3d reach = 0.5 * (glm::abs(axes[0]) + glm::abs(axes[1]) + glm::abs(axes[2]));
+    const Vec3d middle(frame.index_to_world * glm::dvec4(Vec3d(cell), 1.0));
+    return within.empty() || std::any_of(within.begin(), within.end(), [&](const Box& box) {
+             return glm::all(glm::lessThanEqual(middle - reach, Vec3d(box.hi))) &&
+                    glm::all(glm::greaterThanEqual(middle + reach, Vec3d(box.lo)));
+           });
+  }
 };
+
+double volume_of(const Box& box) {
+  const Vec3d size = Vec3d(box.hi) - Vec3d(box.lo);
+  return size.x * size.y * size.z;
+}
 
 /// The cells of the lattice of a grid, where it holds anything: voxels that fill them. Where there are too many, 2^3 or
 /// more make one. Those of temperatures are halved where there are few, as light changes much within one.
@@ -37,12 +54,14 @@ Cells cells_of(const DensityGrid& grid, bool blackbody) {
   double edge = blackbody && !nearest ? 0.5 : 1.0;
   const auto too_many = [&] {
     constexpr double kWidest = double{1 << 30};
+    const Vec3d all = glm::ceil((last - first) / edge);
+    if (all.x * all.y * all.z <= kMostCells) return false;
     double count = 0.0;
     for (const IndexBox& box : filled) {
       const Vec3d size = glm::ceil((Vec3d(box.hi - box.lo) + end - begin) / edge);
       count += size.x * size.y * size.z;
     }
-    return count > kMostCells || glm::any(glm::greaterThan((last - first) / edge, Vec3d(kWidest)));
+    return count > kMostCells || glm::any(glm::greaterThan(all, Vec3d(kWidest)));
   };
   while (too_many()) edge *= 2.0;
   frame.hi = Vec3i(glm::ceil((last - first) / edge)) - 1;
@@ -66,12 +85,41 @@ Cells cell_of(const Box& box) {
   return {frame};
 }
 
+/// Boxes of the world as cells: one around all, unless that would be mostly empty. Then there are some across the
+/// narrowest box.
+Cells cells_in(const std::vector<Box>& around) {
+  constexpr double kAcross = 4.0, kMost = double{1 << 16}, kWidest = double{1 << 20};
+  Box all;
+  double filled = 0.0, edge = kInfinity;
+  for (const Box& box : around) {
+    all.add(box.lo);
+    all.add(box.hi);
+    filled += volume_of(box);
+    const Vec3d size = Vec3d(box.hi) - Vec3d(box.lo);
+    edge = std::min({edge, size.x / kAcross, size.y / kAcross, size.z / kAcross});
+  }
+  if (2.0 * filled > volume_of(all) || !(edge > 0.0)) return cell_of(all);
+  const Vec3d lo(all.lo), size = Vec3d(all.hi) - lo;
+  edge = std::max({edge, std::cbrt(filled / kMost), std::max({size.x, size.y, size.z}) / kWidest});
+  Cells cells{{}, {}, around};
+  cells.frame.interpolation = Interpolation::nearest;
+  cells.frame.hi = Vec3i(glm::ceil(size / edge)) - 1;
+  cells.frame.index_to_world = glm::translate(Mat4d(1.0), lo + 0.5 * edge) * glm::scale(Mat4d(1.0), Vec3d(edge));
+  for (const Box& box : around)
+    cells.filled.push_back({Vec3i(glm::floor((Vec3d(box.lo) - lo) / edge)),
+                            glm::min(Vec3i(glm::floor((Vec3d(box.hi) - lo) / edge)), cells.frame.hi)});
+  return cells;
+}
+
 /// Of the grid that says where something is emitted.
-Cells cells_for(const Medium& medium, const Box& around) {
+Cells cells_for(const Medium& medium, const std::vector<Box>& around) {
+  constexpr size_t kMostBoxes = 64;  // that each cell is compared with
   const DensityGrid* grid = medium.emission_grid.get();
   if (!grid && medium.emission->meaning == MediumEmission::Meaning::thermal) grid = medium.grid.get();
-  if (!grid || grid->frame().background != 0.0f || grid->max_density() == 0.0f) return cell_of(around);
-  return cells_of(*grid, medium.emission->blackbody);
+  if (!grid || grid->frame().background != 0.0f || grid->max_density() == 0.0f) return cells_in(around);
+  Cells cells = cells_of(*grid, medium.emission->blackbody);
+  if (around.size() <= kMostBoxes) cells.within = around;
+  return cells;
 }
 
 /// A grid, or none, whose value is 1 everywhere, as the cells of another lattice see it.
@@ -131,10 +179,8 @@ std::shared_ptr<const DensityGrid> bounds_of(const Medium& medium, const Cells& 
       for (int y = 0; y < kValues; ++y)
         for (int x = 0; x < kValues; ++x, ++n) {
           const Vec3i voxel = origin + Vec3i(x, y, z);
-          const bool inside =
-              glm::all(glm::greaterThanEqual(voxel, frame.lo)) && glm::all(glm::lessThanEqual(voxel, frame.hi));
           const Vec3d lo = Vec3d(voxel) - 0.5;
-          values[n] = static_cast<float>(inside ? (1.0 + kAbove) * bounds.in(lo, lo + 1.0) : 0.0);
+          values[n] = static_cast<float>(cells.may_emit(voxel) ? (1.0 + kAbove) * bounds.in(lo, lo + 1.0) : 0.0);
         }
     return DensityGrid::Filled::all;
   };
@@ -143,7 +189,7 @@ std::shared_ptr<const DensityGrid> bounds_of(const Medium& medium, const Cells& 
 
 }  // namespace
 
-EmittingVolume::EmittingVolume(const Medium& medium, const Box& around)
+EmittingVolume::EmittingVolume(const Medium& medium, const std::vector<Box>& around)
     : bounds_(bounds_of(medium, cells_for(medium, around))) {
   volume_ = std::abs(glm::determinant(glm::dmat3(bounds_->frame().index_to_world)));
   add_cells();

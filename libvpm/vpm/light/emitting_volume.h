@@ -12,10 +12,10 @@ namespace vpm {
 
 class EmittingVolume {
  public:
-  /// Of a medium that emits. The cells are those of the grid of its source, else of its density; without either, the
-  /// whole box `around` (m) is one. Throws InputError where nothing is emitted
-  /// anywhere.
-  EmittingVolume(const Medium& medium, const Box& around);
+  /// Of a medium that emits, in boxes, m, as far as these are known. The cells are those of the grid of its source,
+  /// else of its density, that reach into the boxes; without either, the box around all, or small ones where that would
+  /// be mostly empty. Throws InputError where nothing is emitted anywhere.
+  EmittingVolume(const Medium& medium, const std::vector<Box>& around);
 
   /// What would be emitted if the medium filled all cells, W: by Gauss points along each axis of each cell, two, which
   /// is exact for products of two trilinear fields on one lattice if cells are its own, and four where temperatures

@@ -114,36 +114,48 @@ double planck(double metres, double kelvin) {
   return 2.0 * kH * kC * kC / std::pow(metres, 5) / std::expm1(kH * kC / (metres * kK * kelvin));
 }
 
-/// The logarithms of X, Y and Z at temperatures even in 1/T, in which they are nearly straight lines.
+/// The logarithms of X, Y and Z: at temperatures even in 1/T up to 10,000 K, in which they are nearly straight lines,
+/// and from there on even in ln T, as radiance then goes with T.
 class Table {
  public:
   Table() {
     for (int i = 0; i < kNodes; ++i) {
-      const Vec3d xyz = blackbody_xyz(1.0 / (kLeast + (i - 1) * kStep));
-      for (int c = 0; c < 3; ++c) logarithms_[i][c] = std::log(xyz[c]);
+      set(1.0 / (kLeast + (i - 1) * kStep), warm_[i]);
+      set(kMiddle * std::exp((i - 1) * kHotStep), hot_[i]);
     }
   }
-  bool covers(double kelvin) const { return kelvin <= kHottest; }
-  /// By the cubic through the four nodes around.
+
   Vec3d xyz(double kelvin) const {
-    const double place = (1.0 / kelvin - kLeast) / kStep + 1.0;
+    if (kelvin <= kMiddle) return between(warm_, (1.0 / kelvin - kLeast) / kStep + 1.0);
+    return between(hot_, std::log(kelvin / kMiddle) / kHotStep + 1.0);
+  }
+
+ private:
+  static constexpr int kNodes = 512;
+  static constexpr double kMiddle = 10'000.0, kHottest = 1e8;  // K
+  static constexpr double kLeast = 1.0 / kMiddle, kStep = (1.0 / kColdestSeen - kLeast) / (kNodes - 4);
+  static inline const double kHotStep = std::log(kHottest / kMiddle) / (kNodes - 4);
+  using Nodes = std::array<std::array<double, 3>, kNodes>;
+
+  static void set(double kelvin, std::array<double, 3>& logarithms) {
+    const Vec3d xyz = blackbody_xyz(kelvin);
+    for (int c = 0; c < 3; ++c) logarithms[c] = std::log(xyz[c]);
+  }
+
+  /// By the cubic through the four nodes around.
+  static Vec3d between(const Nodes& nodes, double place) {
     const int i = std::clamp(static_cast<int>(place), 1, kNodes - 3);
     const double f = place - i;
     const double before = -f * (f - 1.0) * (f - 2.0) / 6.0, at = (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0;
     const double next = -(f + 1.0) * f * (f - 2.0) / 2.0, last = (f + 1.0) * f * (f - 1.0) / 6.0;
     Vec3d result;
     for (int c = 0; c < 3; ++c)
-      result[c] = std::exp(before * logarithms_[i - 1][c] + at * logarithms_[i][c] + next * logarithms_[i + 1][c] +
-                           last * logarithms_[i + 2][c]);
+      result[c] =
+          std::exp(before * nodes[i - 1][c] + at * nodes[i][c] + next * nodes[i + 1][c] + last * nodes[i + 2][c]);
     return result;
   }
 
- private:
-  static constexpr int kNodes = 512;
-  static constexpr double kHottest = 10'000.0;
-  static constexpr double kLeast = 1.0 / kHottest, kStep = (1.0 / kColdestSeen - kLeast) / (kNodes - 4);
-
-  std::array<std::array<double, 3>, kNodes> logarithms_{};
+  Nodes warm_{}, hot_{};
 };
 
 }  // namespace
@@ -160,8 +172,7 @@ Vec3d blackbody_xyz(double kelvin) {
 Rgbd blackbody(double kelvin) {
   static const Table table;
   if (!(kelvin > kColdestSeen)) return Rgbd(0.0);
-  const Vec3d xyz = table.covers(kelvin) ? table.xyz(kelvin) : blackbody_xyz(kelvin);
-  return glm::max(Rgbd(0.0), linear_srgb_of_xyz(xyz));
+  return glm::max(Rgbd(0.0), linear_srgb_of_xyz(table.xyz(kelvin)));
 }
 
 }  // namespace vpm

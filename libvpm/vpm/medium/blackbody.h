@@ -20,8 +20,8 @@ inline Rgbd linear_srgb_of_xyz(const Vec3d& xyz) {
           0.055630079696993650 * xyz.x - 0.20397695888897649 * xyz.y + 1.0569715142428786 * xyz.z};
 }
 
-/// The radiance of a black body, W/(m^2 sr), to 1e-6 of the sum above. Colours outside sRGB are clamped: blue below
-/// 1900 K and green below 964 K are 0, by which luminance rises by 0.65 % at 1000 K. 0 up to kColdestSeen.
+/// The radiance of a black body, W/(m^2 sr), up to 1e8 K to 1e-6 of the sum above. Colours outside sRGB are clamped:
+/// blue below 1900 K and green below 964 K are 0, by which luminance rises by 0.65 % at 1000 K. 0 up to kColdestSeen.
 Rgbd blackbody(double kelvin);
 
 }  // namespace vpm

@@ -25,6 +25,9 @@ struct MediumEmission {
   Rgbd source(double value) const;
 };
 
+/// Temperatures that fires reach, K: others are likely to be no kelvin.
+inline constexpr double kColdestFire = 700.0, kHottestFire = 20'000.0;
+
 /// The emission coefficient of a medium that emits, at a place of the world, W/(m^3 sr).
 Rgbd emission_coefficient(const Medium& medium, const Vec3& place);
 

@@ -1,6 +1,8 @@
 // Parts become a scene: boxes around grids, shapes with their lights, what the scene derives, and checks of the whole.
 #include "vpm/scene/assemble.h"
 
+#include <algorithm>
+
 #include "vpm/base/overloads.h"
 #include "vpm/light/emitting_volume.h"
 #include "vpm/light/of_surface.h"
@@ -154,20 +156,33 @@ Box bounds_of_surface(const Surface& surface) {
                     surface);
 }
 
-/// The box around the shapes that have the medium on one of their sides.
-Box box_around(const SceneParts& parts, MediumId id) {
-  Box box;
-  for (const ShapePart& shape : parts.shapes)
-    if (shape.media && (shape.media->inside == id || shape.media->outside == id)) {
-      const Box bounds = bounds_of_surface(shape.surface);
-      box.add(bounds.lo);
-      box.add(bounds.hi);
-    }
-  return box;
+bool is_closed_surface(const Surface& surface) {
+  return std::visit(Overloads{[](const TriangleMesh& mesh) { return is_closed(mesh); },
+                              [](const SphereShape&) { return true; }, [](const auto&) { return false; }},
+                    surface);
+}
+
+/// Boxes that hold the medium: of each closed shape that has it inside; or, where others bound it that do not lie in
+/// one of these, one around all.
+std::vector<Box> boxes_around(const SceneParts& parts, MediumId id) {
+  std::vector<Box> boxes, others;
+  Box all;
+  for (const ShapePart& shape : parts.shapes) {
+    if (!shape.media || (shape.media->inside != id && shape.media->outside != id)) continue;
+    const Box bounds = bounds_of_surface(shape.surface);
+    const bool filled = shape.media->inside == id && is_closed_surface(shape.surface);
+    (filled ? boxes : others).push_back(bounds);
+    all.add(bounds);
+  }
+  for (const Box& other : others)
+    if (std::none_of(boxes.begin(), boxes.end(),
+                     [&](const Box& box) { return box.contains(other.lo) && box.contains(other.hi); }))
+      return {all};
+  return boxes;
 }
 
 /// Media that emit are lights, behind all others.
-void add_emitting_media(const std::vector<Box>& around, AssembledScene& result) {
+void add_emitting_media(const std::vector<std::vector<Box>>& around, AssembledScene& result) {
   Scene& scene = result.scene;
   for (size_t i = 0; i < scene.media.size(); ++i) {
     const Medium& medium = scene.media[i];
@@ -179,7 +194,10 @@ void add_emitting_media(const std::vector<Box>& around, AssembledScene& result) 
       scene.lights.push_back(VolumeLight{.medium = static_cast<int>(i),
                                          .volume = std::make_shared<const EmittingVolume>(medium, around[i])});
     } catch (const InputError& error) {
-      throw PartError({PartKind::medium, i}, error.what(), doubt_of_temperatures(medium));
+      const std::string doubt = doubt_of_temperatures(medium);
+      throw PartError(
+          {PartKind::medium, i}, error.what(),
+          doubt.empty() ? "let density, absorption (albedo below 1) and emission be above 0 at one place" : doubt);
     }
     result.light_names.push_back(medium.name);
   }
@@ -253,8 +271,8 @@ AssembledScene assemble(SceneParts parts) {
   const Boxes boxes = add_boxes(parts);
   AssembledScene result;
   Scene& scene = result.scene;
-  std::vector<Box> around;
-  for (size_t i = 0; i < parts.media.size(); ++i) around.push_back(box_around(parts, static_cast<MediumId>(i)));
+  std::vector<std::vector<Box>> around;
+  for (size_t i = 0; i < parts.media.size(); ++i) around.push_back(boxes_around(parts, static_cast<MediumId>(i)));
   add_lists(parts, result);
   add_shapes(parts, boxes, result);
   add_emitting_media(around, result);

@@ -172,10 +172,9 @@ void note_unresolved_media(const Scene& scene, std::vector<std::string>& notes) 
 }  // namespace
 
 std::string doubt_of_temperatures(const Medium& medium) {
-  constexpr double kCold = 700.0, kHot = 20'000.0;  // K; values in other units are often below 20
   if (!medium.emits() || !medium.emission->blackbody || !medium.emission_grid) return "";
   const double hottest = medium.emission->kelvin(double{medium.emission_grid->max_density()});
-  if (hottest >= kCold && hottest <= kHot) return "";
+  if (hottest >= kColdestFire && hottest <= kHottestFire) return "";
   return fmt::format(
       "its temperatures reach {:.4g} K, fire has 1000 to 3000 K: 'scale' and 'offset' of 'temperature' "
       "make kelvin of the grid's values",

@@ -64,24 +64,24 @@ std::vector<double> probability_by_power(const std::vector<Light>& lights, const
   return probability;
 }
 
-/// What a medium emits where it is, W: by drawn places, unless these find it in all of its cells.
+/// What a medium emits where it is, W: by drawn places, unless all of these are inside. Where few are, more are drawn.
 Rgb power_inside(const Scene& scene, const VolumeLight& light) {
-  constexpr uint64_t kPlaces = 4096;
+  constexpr uint64_t kPlaces = 4096, kMostPlaces = 1 << 18, kFewInside = 1000;
   Rgbd inside(0.0);
-  bool whole = true;
-  for (uint64_t i = 0; i < kPlaces; ++i) {
-    Rng rng(0, rng_stream(RngUse::probe, 1), i);
+  uint64_t places = 0, found = 0;
+  for (; places < kPlaces || (places < kMostPlaces && found < kFewInside); ++places) {
+    Rng rng(0, rng_stream(RngUse::probe, 1), places);
     const double choice = rng.uniform_double(), x = rng.uniform_double();
     const EmittingVolume::Place place = light.volume->draw(choice, x, rng.uniform2());
-    const bool is_inside = medium_along(scene, {place.position, kProbes[0]}) == light.medium;
-    whole &= is_inside;
-    if (is_inside) inside += emission_coefficient(scene.media[light.medium], place.position) / place.bound;
+    if (medium_along(scene, {place.position, kProbes[0]}) != light.medium) continue;
+    ++found;
+    inside += emission_coefficient(scene.media[light.medium], place.position) / place.bound;
   }
-  const Rgb whole_power = light.volume->power();
-  if (whole && !is_black(whole_power)) return whole_power;
-  // One that no place shows is still a light.
-  constexpr double kLeast = 1e-6;
-  return Rgb(light.volume->bound() * glm::max(inside / double{kPlaces}, Rgbd(kLeast)));
+  const Rgb whole = light.volume->power();
+  if (found == places && !is_black(whole)) return whole;
+  constexpr double kLeast = 1e-6;  // of the bound: one that no place shows is still a light
+  if (inside == Rgbd(0.0)) return Rgb(static_cast<float>(kLeast * light.volume->bound()));
+  return Rgb(light.volume->bound() / static_cast<double>(places) * inside);
 }
 
 /// Does a boundary between media cut the box? Judged by segments between random points in it: a cut that parts off a

@@ -1,7 +1,10 @@
 // Boxes and quads as triangles; meshes moved; triangles without area.
 #include "vpm/surface/mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <map>
 
 namespace vpm {
 
@@ -34,6 +37,17 @@ uint64_t drop_flat_triangles(TriangleMesh& mesh) {
   return std::erase_if(mesh.triangles, [&p = mesh.positions](const glm::uvec3& t) {
     return area_vector(p[t.x], p[t.y], p[t.z]) == Vec3d(0.0);
   });
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+  std::map<std::array<float, 6>, int64_t> forwards;  // less backwards: of edges, by their ends
+  for (const auto& triangle : mesh.triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3 &a = mesh.positions[triangle[corner]], &b = mesh.positions[triangle[(corner + 1) % 3]];
+      const std::array<float, 6> forward{a.x, a.y, a.z, b.x, b.y, b.z}, backward{b.x, b.y, b.z, a.x, a.y, a.z};
+      forward < backward ? ++forwards[forward] : --forwards[backward];
+    }
+  return std::all_of(forwards.begin(), forwards.end(), [](const auto& edge) { return edge.second == 0; });
 }
 
 }  // namespace vpm

@@ -22,6 +22,9 @@ struct QuadMesh {
   TriangleMesh mesh;
 };
 
+/// Does each edge have as many triangles on one of its sides as on the other, by the places of its ends?
+bool is_closed(const TriangleMesh& mesh);
+
 /// Transforms a mesh by an affine map. Its normals stay outward under reflections too.
 void transform_mesh(const Mat4d& transform, TriangleMesh& mesh);
 

@@ -83,18 +83,20 @@ void find_best(double seconds, Runner& runner) {
     }
 }
 
-/// Of all blocks and channels.
-double total(const ShownLight& light) {
-  double sum = 0.0;
+/// The light of all blocks and channels, and its variance.
+glm::dvec2 total(const ShownLight& light) {
+  glm::dvec2 sum(0.0);
   for (const std::array<Shown, 3>& block : light)
-    for (const Shown& shown : block) sum += shown.mean;
+    for (const Shown& shown : block) sum += glm::dvec2(shown.mean, shown.standard_error * shown.standard_error);
   return sum;
 }
 
-/// May a way without kernels have missed rare bright samples? It shows less light than another way does.
+/// May a way without kernels have missed rare bright samples? Another one shows clearly more light.
 bool may_have_missed(const Runner& way, const Runner& other) {
-  constexpr double kLess = 0.9;
-  return way.model.power_of_noise == 0.0 && total(way.light) < kLess * total(other.light);
+  constexpr double kLess = 0.9, kSure = 2.0;  // of the light; standard errors
+  const glm::dvec2 own = total(way.light), more = total(other.light);
+  return way.model.power_of_noise == 0.0 && own.x < kLess * more.x &&
+         more.x - own.x > kSure * std::sqrt(own.y + more.y);
 }
 
 /// Computes the errors after so many seconds of passes, and sorts by them.
@@ -102,7 +104,7 @@ void compare(double seconds, std::vector<Runner>& runners) {
   const Scales scales = scales_of(runners);
   for (Runner& runner : runners) runner.light = runner.pilot.light();
   const bool all_black =
-      std::all_of(runners.begin(), runners.end(), [](const Runner& r) { return total(r.light) == 0.0; });
+      std::all_of(runners.begin(), runners.end(), [](const Runner& r) { return total(r.light).x == 0.0; });
   for (Runner& runner : runners) {
     runner.model = runner.pilot.model(scales);
     double missing = 0.0;
@@ -115,7 +117,7 @@ void compare(double seconds, std::vector<Runner>& runners) {
       runner.model.bias2 = std::max(runner.model.bias2, missing);
     runner.noise = runner.pilot.noise_of_blocks(scales);
     find_best(seconds, runner);
-    if (total(runner.light) == 0.0 && !all_black) runner.error = kInfinity;  // without light there is no noise either
+    if (total(runner.light).x == 0.0 && !all_black) runner.error = kInfinity;  // without light there is no noise either
   }
   std::stable_sort(runners.begin(), runners.end(),
                    [](const Runner& a, const Runner& b) { return a.high_error() < b.high_error(); });
@@ -131,7 +133,8 @@ double doubt_of_ratio(const std::vector<double>& a, const std::vector<double>& b
   return std::sqrt(differences.variance_of_mean());
 }
 
-/// Drops the ways that are surely behind the first by more than that many times, unless that one shows next to nothing.
+/// Drops the ways that are surely behind the first by more than that many times, unless that one shows next to nothing,
+/// or less light than they do.
 /// Returns ", NAME" of each.
 std::string drop_behind(double alike, std::vector<Runner>& runners) {
   constexpr double kSure = 2.0;  // standard errors

@@ -21,6 +21,9 @@
 // power heuristic all terms are squared. See [Georgiev2012] for connections and merges on surfaces, and [Krivanek2014]
 // for all merges in media, where media are homogeneous. In grids no factor changes, as the transmittance of each leg is
 // known exactly.
+//
+// Where light starts anywhere on a line through a medium that emits, the line counts as the vertex x_0: as parallel
+// light, of which f_1 is the density of what arrives at x_1 from all of it (depart_from_medium()).
 #pragma once
 
 #include <algorithm>

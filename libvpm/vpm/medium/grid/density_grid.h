@@ -81,8 +81,8 @@ class DensityGrid {
   /// Is the density positive everywhere in a box of the world? Whole bricks decide: the answer may be no only because
   /// the density is zero outside the box, in a brick that the box reaches into.
   bool is_positive(const Box& world) const;
-  /// The largest density in a box of index coordinates, or, where the box is larger than a few voxels, of any voxel
-  /// that reaches into it.
+  /// The largest density in a box of index coordinates, or, where the box is larger than a few voxels, a bound: of any
+  /// voxel that reaches into it, or in a brick that lies in it.
   float largest(const Vec3d& lo, const Vec3d& hi) const;
   /// The boxes of voxels, both ends included, of the bricks that hold any density above 0, in their order. Each voxel
   /// with one is in exactly one of them.
