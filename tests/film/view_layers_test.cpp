@@ -178,7 +178,8 @@ TEST_F(ViewLayers, HaveWhatMediaEmit) {
   scene_.camera = make_camera(Vec3(0, 0, 4), Vec3(0.0f), Vec3(0, 1, 0), 60.0f, {kSize, kSize});
   render_passes(few_photons(Integrator::path, all_layers()), 1);
   constexpr int kMiddle = kSize / 2;
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(value("emission", kMiddle, kMiddle)[c], view.passage.emission[c], 0.02);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(value("emission", kMiddle, kMiddle)[c], view.passage.emission[c], 0.05);  // a mean over the pixel
   EXPECT_EQ(value("emission", 0, 0), Rgb(0.0f));
 }
 

@@ -102,7 +102,7 @@ class SlowVpmTour : public VpmBinary {
 
 TEST_F(SlowVpmTour, FirstStepsRun) {
   const std::vector<std::string> lines = lines_of("README.md", "## First steps");
-  EXPECT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines.size(), 7u);
   for (const std::string& line : lines) {
     const testing::ScopedTrace trace(__FILE__, __LINE__, line);
     run(line);

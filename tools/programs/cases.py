@@ -18,7 +18,8 @@ MADE = {"smoke": {"media.smoke.path": "smoke.vdb"}, "cloud": {"media.cloud.path"
         "plume_room": {"media.smoke.path": "smoke.vdb"},
         "plume_lake": {"media.smoke.path": "smoke.vdb", "shapes.water.path": "waves.ply"},
         "ring_caustic": {"shapes.ring.path": "ring.ply"}, "pool": {"shapes.water.path": "waves.ply"},
-        "street_lamp": {"shapes.pole.path": "pole.ply"}}
+        "street_lamp": {"shapes.pole.path": "pole.ply"}, "fire": {"media.fire.path": "fire.vdb"},
+        "fire_glass": {"media.fire.path": "fire.vdb"}}
 
 # Radii so wide that maps of a thousand photons have some within them.
 WIDE = {"fog_room": ".volume.radius=0.3 .surface.radius=0.3",
@@ -34,7 +35,7 @@ def make_files(program, folder):
         done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
             raise RuntimeError(f"{program} {' '.join(arguments)}: {done.stderr.strip()}")
-    for name in ("smoke", "cloud"):
+    for name in ("smoke", "cloud", "fire"):
         make("media", name, "--resolution", "32", "-o", f"{name}.vdb")
     make("mesh", "ring", "--resolution", "64", "-o", "ring.ply")
     make("mesh", "pole", "--resolution", "16", "-o", "pole.ply")
