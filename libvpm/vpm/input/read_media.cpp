@@ -73,6 +73,14 @@ GridPlan read_grid(TableReader& table, const GridRole& role, const GridValues* g
   return {role, std::move(request), given, table, "path"};
 }
 
+/// A table of a table; what it may look like, where it is no table.
+std::optional<TableReader> read_table(TableReader& table, const std::string& key, const std::string& example) {
+  const Node* node = table.find(key);
+  if (node && !node->table())
+    table.fail(key, "'" + key + "' of " + table.title() + " must be a table, not " + kind_of(*node), example);
+  return table.table(key, "'" + key + "' of " + table.title());
+}
+
 /// The grid that an emission or its temperature names: of the file of the density, unless it names another.
 GridPlan read_source_grid(TableReader& table, const std::string& medium, const std::vector<GridPlan>& densities,
                           const GivenParts& given) {
@@ -81,16 +89,22 @@ GridPlan read_source_grid(TableReader& table, const std::string& medium, const s
   GridRequest request;
   if (!densities.empty()) request = densities.front().request;
   request.from_level_set = request.density = false;
+  const bool path = table.has("path");
   request.name = table.string("grid");
-  if (table.has("path"))
+  if (path)
     request.path = table.path("path");
   else if (!values && request.path.empty())
-    table.fail("grid", "the grid has no file: that of the density has none to share", "add path = \"FILE.vdb\"");
+    table.fail("grid", "no file is given that holds this grid: the medium's density has none",
+               "add path = \"FILE.vdb\"");
   return {role, std::move(request), values, table, "grid"};
 }
 
 void read_temperature(TableReader& emission, Medium& medium, std::vector<GridPlan>& grids, const GivenParts& given) {
-  TableReader table = *emission.table("temperature", "'temperature' of " + emission.title());
+  TableReader table = *read_table(emission, "temperature",
+                                  "write temperature = { grid = \"temperature\" }; where all has one temperature, give "
+                                  "its radiance instead");
+  table.find("scale");
+  table.find("offset");
   grids.push_back(read_source_grid(table, medium.name, grids, given));
   medium.emission->blackbody = true;
   medium.emission->scale = table.number("scale", kPositive, 1.0f);
@@ -100,23 +114,33 @@ void read_temperature(TableReader& emission, Medium& medium, std::vector<GridPla
 }
 
 void read_emission(TableReader& medium_table, Medium& medium, std::vector<GridPlan>& grids, const GivenParts& given) {
-  std::optional<TableReader> table = medium_table.table("emission", "'emission' of " + medium_table.title());
+  constexpr const char* kKinds =
+      "radiance (W/(m^2 sr), of a thick layer), power (W/m^3, whatever the density), or temperature = { grid = "
+      "\"temperature\" }";
+  std::optional<TableReader> table =
+      read_table(medium_table, "emission", std::string("write emission = { ... } with ") + kKinds);
   if (!table && medium_table.has("emission_scale"))
     medium_table.fail("emission_scale", "there is no 'emission' that it would scale", "add emission = { ... }");
   if (!table) return;
   const bool radiance = table->has("radiance"), power = table->has("power"), temperature = table->has("temperature");
-  if (radiance + power + temperature != 1)
-    table->fail_here(table->title() + (radiance + power + temperature == 0 ? " does not say what is emitted"
-                                                                           : " says in several ways what is emitted"),
-                     "give radiance (W/(m^2 sr), of a thick layer), power (W/m^3, whatever the density), or "
-                     "temperature = { grid = \"temperature\" }");
+  if (radiance + power + temperature == 0) {
+    table->find("grid");
+    table->find("path");
+    table->finish();
+    table->fail_here(table->title() + " does not say what is emitted", std::string("give ") + kKinds);
+  }
+  if (radiance + power + temperature > 1)
+    table->fail_here(table->title() + " says in several ways what is emitted", std::string("keep one of ") + kKinds);
   MediumEmission& emission = medium.emission.emplace();
   if (temperature) {
     read_temperature(*table, medium, grids, given);
   } else {
     emission.meaning = power ? MediumEmission::Meaning::volume : MediumEmission::Meaning::thermal;
     emission.colour = power ? read_emitted(*table, "power") / (4.0f * kPi) : read_emitted(*table, "radiance");
-    if (table->has("grid")) grids.push_back(read_source_grid(*table, medium.name, grids, given));
+    if (table->has("grid"))
+      grids.push_back(read_source_grid(*table, medium.name, grids, given));
+    else if (table->has("path"))
+      table->fail("path", "the grid of this file is not named", "add grid = \"flame\", or what it is called");
   }
   emission.colour *= medium_table.number("emission_scale", kPositive, 1.0f);
   table->finish();

@@ -271,8 +271,9 @@ AssembledScene assemble(SceneParts parts) {
   const Boxes boxes = add_boxes(parts);
   AssembledScene result;
   Scene& scene = result.scene;
-  std::vector<std::vector<Box>> around;
-  for (size_t i = 0; i < parts.media.size(); ++i) around.push_back(boxes_around(parts, static_cast<MediumId>(i)));
+  std::vector<std::vector<Box>> around(parts.media.size());  // those that emit
+  for (size_t i = 0; i < around.size(); ++i)
+    if (parts.media[i].medium.emits()) around[i] = boxes_around(parts, static_cast<MediumId>(i));
   add_lists(parts, result);
   add_shapes(parts, boxes, result);
   add_emitting_media(around, result);

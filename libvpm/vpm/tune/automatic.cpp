@@ -37,7 +37,7 @@ std::vector<Choice> components_of(const AutomaticSettings& automatic, const Winn
     const bool open = automatic.has(setting.key) || automatic.has(kIntegratorKey);
     if (!setting.automatic || !is_component || !open) continue;
     choices.push_back({setting.key, std::get<std::string>(setting.get()),
-                       choices.empty() ? winner.reason : fmt::format("with {}, see there", choices.front().key)});
+                       choices.empty() ? winner.reason : fmt::format("chosen with {}", choices.front().key)});
   }
   return choices;
 }

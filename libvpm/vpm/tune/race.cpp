@@ -83,28 +83,11 @@ void find_best(double seconds, Runner& runner) {
     }
 }
 
-/// The light of all blocks and channels, and its variance.
-glm::dvec2 total(const ShownLight& light) {
-  glm::dvec2 sum(0.0);
-  for (const std::array<Shown, 3>& block : light)
-    for (const Shown& shown : block) sum += glm::dvec2(shown.mean, shown.standard_error * shown.standard_error);
-  return sum;
-}
-
-/// May a way without kernels have missed rare bright samples? Another one shows clearly more light.
-bool may_have_missed(const Runner& way, const Runner& other) {
-  constexpr double kLess = 0.9, kSure = 2.0;  // of the light; standard errors
-  const glm::dvec2 own = total(way.light), more = total(other.light);
-  return way.model.power_of_noise == 0.0 && own.x < kLess * more.x &&
-         more.x - own.x > kSure * std::sqrt(own.y + more.y);
-}
-
 /// Computes the errors after so many seconds of passes, and sorts by them.
 void compare(double seconds, std::vector<Runner>& runners) {
   const Scales scales = scales_of(runners);
   for (Runner& runner : runners) runner.light = runner.pilot.light();
-  const bool all_black =
-      std::all_of(runners.begin(), runners.end(), [](const Runner& r) { return total(r.light).x == 0.0; });
+  const bool all_black = std::all_of(runners.begin(), runners.end(), [](const Runner& r) { return is_black(r.light); });
   for (Runner& runner : runners) {
     runner.model = runner.pilot.model(scales);
     double missing = 0.0;
@@ -117,7 +100,7 @@ void compare(double seconds, std::vector<Runner>& runners) {
       runner.model.bias2 = std::max(runner.model.bias2, missing);
     runner.noise = runner.pilot.noise_of_blocks(scales);
     find_best(seconds, runner);
-    if (total(runner.light).x == 0.0 && !all_black) runner.error = kInfinity;  // without light there is no noise either
+    if (is_black(runner.light) && !all_black) runner.error = kInfinity;  // without light there is no noise either
   }
   std::stable_sort(runners.begin(), runners.end(),
                    [](const Runner& a, const Runner& b) { return a.high_error() < b.high_error(); });
@@ -141,8 +124,9 @@ std::string drop_behind(double alike, std::vector<Runner>& runners) {
   const auto is_behind = [&first = runners.front(), alike](const Runner& other) {
     if (std::isinf(other.error) || first.error > kNothingShown)
       return std::isinf(other.error) && !std::isinf(first.error);
-    return !may_have_missed(first, other) &&
-           other.error > first.error * (alike + kSure * doubt_of_ratio(first.noise, other.noise));
+    // Without kernels it may have missed rare bright samples.
+    if (first.model.power_of_noise == 0.0 && is_clearly_darker(first.light, other.light)) return false;
+    return other.error > first.error * (alike + kSure * doubt_of_ratio(first.noise, other.noise));
   };
   std::string names;
   for (size_t i = runners.size(); i-- > 1;)
@@ -220,20 +204,20 @@ Winner race(const Scene& scene, const AutomaticSettings& automatic, const std::v
       first.choices.push_back({kPhotonsKey, fmt::format("{}", first.settings.photons.emitted), "the default" + late});
     return first;
   }
-  std::string behind;
+  std::string worse;
   for (int round = 0; round < kMostRounds; ++round) {
     compare(begin + seconds - clock.seconds(), runners);
-    behind = drop_behind(round == 0 ? kAlikeAtFirst : kAlike, runners) + behind;
+    worse = drop_behind(round == 0 ? kAlikeAtFirst : kAlike, runners) + worse;
     if (!go_on(begin + (runners.size() > 1 ? kPilotShare : kAloneShare) * seconds, clock, runners)) break;
   }
-  behind = drop_behind(kAlike, runners) + behind;
+  worse = drop_behind(kAlike, runners) + worse;
   const bool nothing_shown = runners.front().error > kNothingShown;
   std::stable_sort(runners.begin(), runners.end(), [](const Runner& a, const Runner& b) { return a.turn < b.turn; });
   if (nothing_shown) runners.front().best = runners.front().pilot.usual();
   std::string reason = "the least error by pilot passes";
   if (runners.size() > 1) reason = "the first of those that pilot passes do not tell apart";
   for (size_t i = 1; i < runners.size(); ++i) reason += ", " + runners[i].pilot.way().name;
-  if (!behind.empty()) reason += "; behind" + behind.substr(1);
+  if (!worse.empty()) reason += "; clearly more:" + worse.substr(1);
   if (ways.size() == 1) reason = "no other way is open";
   return with_numbers(runners.front(), reason + late);
 }

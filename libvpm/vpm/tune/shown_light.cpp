@@ -34,6 +34,14 @@ double unseen_square(const Shown& own, const Shown& other, double mean) {
   return missing * missing / relative_scale(other.mean, mean);
 }
 
+/// The light of all blocks and channels, and its variance.
+glm::dvec2 total(const ShownLight& light) {
+  glm::dvec2 sum(0.0);
+  for (const std::array<Shown, 3>& block : light)
+    for (const Shown& shown : block) sum += glm::dvec2(shown.mean, shown.standard_error * shown.standard_error);
+  return sum;
+}
+
 }  // namespace
 
 void MeansOfPasses::add(const SmallPass& pass) {
@@ -64,6 +72,13 @@ ShownLight shown_light(const MeansOfPasses& light, const MeansOfPasses& correcti
     even_out(channel, blocks);
   }
   return blocks;
+}
+
+bool is_black(const ShownLight& light) { return total(light).x == 0.0; }
+
+bool is_clearly_darker(const ShownLight& own, const ShownLight& other) {
+  const glm::dvec2 less = total(own), more = total(other);
+  return less.x < 0.9 * more.x && more.x - less.x > 2.0 * std::sqrt(less.y + more.y);
 }
 
 double unseen_by(const ShownLight& own, const ShownLight& other) {

@@ -47,6 +47,9 @@ struct Shown {
 using ShownLight = std::vector<std::array<Shown, 3>>;
 ShownLight shown_light(const MeansOfPasses& light, const MeansOfPasses& corrections);
 
+bool is_black(const ShownLight& light);  // in all blocks
+/// Is the light of all blocks less than nine tenths of another's, and by more than two standard errors of both?
+bool is_clearly_darker(const ShownLight& own, const ShownLight& other);
 /// The relative square of the light that one way misses, but another shows in the same blocks, the mean of these: what
 /// the other shows beyond it by more than four standard errors of both (ten where four passes say them), and by twice
 /// the corrections of both.
