@@ -186,6 +186,25 @@ void add_bake(CLI::App& app, BakeOptions& options) {
       ->capture_default_str();
 }
 
+void add_photons(CLI::App& app, PhotonsOptions& options) {
+  CLI::App* command = app.add_subcommand("photons", "Write the photons that a render stores, or their paths, as data");
+  command->footer(
+      "Example: vpm photons scenes/smoke.toml -o smoke.ply writes the photon maps of the first pass for a viewer of "
+      "points.");
+  add_scene(command, options.scene);
+  command->add_option("-o,--output", options.output,
+                      "File to write (.ply or .csv); default: SCENE.ply in the current folder");
+  command->add_flag("--paths", options.paths, "Write the flights of all photons, as lines, instead");
+  command->add_option("--pass", options.pass, "Of this pass, numbered from 0")
+      ->check(whole_number(0, 1'000'000'000))
+      ->capture_default_str();
+  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
+  add_progress(command, options.progress);
+}
+
 void add_compare(CLI::App& app, CompareOptions& options) {
   CLI::App* command =
       app.add_subcommand("compare", "Compare methods, error against cost, on scenes of an experiment file");
@@ -311,6 +330,7 @@ void declare_commands(CLI::App& app, CommandLine& options) {
   add_merge(app, options.merge);
   add_tonemap(app, options.tonemap);
   add_bake(app, options.bake);
+  add_photons(app, options.photons);
   add_compare(app, options.compare);
   add_info(app, options.info);
   add_error(app, options.error);

@@ -17,6 +17,7 @@ struct CommandLine {
   TonemapOptions tonemap;
   UpgradeOptions upgrade;
   BakeOptions bake;
+  PhotonsOptions photons;
   CompareOptions compare;
   InfoOptions info;
   ErrorOptions error;

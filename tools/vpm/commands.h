@@ -97,6 +97,19 @@ struct BakeOptions : PassOptions {
 /// next to it. 130 when interrupted: the finished passes are written.
 int bake_command(const BakeOptions& options);
 
+struct PhotonsOptions {
+  std::string scene;                   // a scene file
+  std::string output;                  // .ply or .csv; empty: SCENE.ply in the current folder
+  std::vector<std::string> overrides;  // key.path=value
+  bool paths = false;                  // flights in the place of stored photons
+  int pass = 0;                        // whose photons
+  std::optional<uint64_t> seed;
+  int threads = 0;  // 0: all
+  ProgressMode progress = ProgressMode::automatic;
+};
+/// Writes the photons that the maps of a pass store, or the flights of all its photons.
+int photons_command(const PhotonsOptions& options);
+
 struct CompareOptions {
   std::string experiment;              // an experiment file
   std::string output;                  // folder; made where it is missing

@@ -24,10 +24,16 @@ struct ArrivingPhoton {
   uint64_t number;         // of the photon among those emitted in the pass
   const PathState& state;  // at the event, with the direction and power with which the photon arrives
   const Event& event;
-  bool direct;      // not yet scattered, reflected or refracted; crossing a boundary between media does not count
-  bool specular;    // nothing except mirrors and smooth glass has scattered it
-  bool from_rough;  // its last non-specular scattering was at a surface, not in a medium
+  const Vec3& departed;  // where the flight began that ends at the event, m
+  uint32_t scatterings;  // so far, in media and at non-specular surfaces
+  uint32_t reflections;  // so far, and refractions, by mirrors and smooth glass
+  bool from_rough;       // its last non-specular scattering was at a surface, not in a medium
   const Turn& turn;
+
+  /// Not yet scattered, reflected or refracted; crossing a boundary between media does not count.
+  bool direct() const { return scatterings == 0 && reflections == 0; }
+  /// Nothing except mirrors and smooth glass has scattered it.
+  bool specular() const { return scatterings == 0; }
 };
 
 /// Which kinds of events are reported to a recorder.
@@ -49,6 +55,8 @@ class PhotonRecorder {
   virtual size_t stored() const { return 0; }
   /// Which of flew(), collided() and hit() are called. It must not change while photons are traced.
   virtual RecordNeeds needs() const { return {}; }
+  /// From now on also keeps where each photon comes from, if it can.
+  virtual void keep_histories() {}
   /// Does the recorder read Event::density? If not, distance strategies may leave it inexact (FlightUse::density).
   virtual bool reads_density() const { return false; }
 
@@ -61,6 +69,8 @@ class PhotonRecorder {
   virtual void collided(const ArrivingPhoton&) {}
   /// A photon meets a surface that is not just a boundary between media. Called before it scatters there.
   virtual void hit(const ArrivingPhoton&) {}
+  /// A photon leaves the scene.
+  virtual void escaped(const ArrivingPhoton&) {}
 };
 
 using Recorders = std::vector<PhotonRecorder*>;

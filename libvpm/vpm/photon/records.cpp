@@ -12,6 +12,10 @@ Photon as_photon(const ArrivingPhoton& arriving, const Rgb& power) {
   return {arriving.state.ray.origin, PackedDirection(arriving.state.ray.direction), power};
 }
 
+PhotonHistory history_of(const ArrivingPhoton& arriving, uint32_t place) {
+  return {arriving.number, place, arriving.scatterings, arriving.reflections};
+}
+
 }  // namespace
 
 PhotonFilter caustic_photons(bool direct, bool specular) {
@@ -23,6 +27,7 @@ PhotonFilter caustic_photons(bool direct, bool specular) {
 
 CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, const ThinParts& thin, PhotonFilter filter)
     : photons(scene.media.size()),
+      histories(scene.media.size()),
       scene_(scene),
       form_(form),
       thin_(thin),
@@ -32,12 +37,17 @@ CollisionRecorder::CollisionRecorder(const Scene& scene, VolumeForm form, const 
                          [](const Medium& medium) { return medium.grid && medium.scatters(); })) {}
 
 std::unique_ptr<PhotonRecorder> CollisionRecorder::part() const {
-  return std::make_unique<CollisionRecorder>(scene_, form_, thin_, filter_);
+  auto part = std::make_unique<CollisionRecorder>(scene_, form_, thin_, filter_);
+  part->keeps_histories_ = keeps_histories_;
+  return part;
 }
 
 void CollisionRecorder::join(PhotonRecorder& part) {
   auto& other = static_cast<CollisionRecorder&>(part);
-  for (size_t m = 0; m < photons.size(); ++m) join_lists(photons[m], other.photons[m]);
+  for (size_t m = 0; m < photons.size(); ++m) {
+    join_lists(photons[m], other.photons[m]);
+    join_lists(histories[m], other.histories[m]);
+  }
   floored += other.floored;
 }
 
@@ -56,6 +66,10 @@ void CollisionRecorder::flew(const Track& track, const ArrivingPhoton& photon, R
     count(floored);
     photons[track.medium].push_back({track.ray.at(static_cast<float>(t)), PackedDirection(track.ray.direction),
                                      power_along(medium, track, integral, thin_)});
+    if (!keeps_histories_) return;
+    PhotonHistory& history = histories[track.medium].emplace_back(history_of(photon, uint32_t(track.medium)));
+    history.density = floor_in(medium, thin_.density_floor);
+    history.along_flight = true;
   });
 }
 
@@ -67,24 +81,32 @@ void CollisionRecorder::collided(const ArrivingPhoton& photon) {
   if (form_ == VolumeForm::density_at_query && density < floor) count(floored);
   photons[photon.state.medium].push_back(
       as_photon(photon, stored_power(photon.state.throughput, form_, density, floor)));
+  if (!keeps_histories_) return;
+  PhotonHistory& history =
+      histories[photon.state.medium].emplace_back(history_of(photon, uint32_t(photon.state.medium)));
+  if (form_ == VolumeForm::density_at_query) history.density = std::max(density, floor);
 }
 
 HitRecorder::HitRecorder(const Scene& scene, PhotonFilter filter, HitUse use)
     : scene_(scene), filter_(filter), use_(use) {}
 
 std::unique_ptr<PhotonRecorder> HitRecorder::part() const {
-  return std::make_unique<HitRecorder>(scene_, filter_, use_);
+  auto part = std::make_unique<HitRecorder>(scene_, filter_, use_);
+  part->keeps_histories_ = keeps_histories_;
+  return part;
 }
 
 void HitRecorder::join(PhotonRecorder& part) {
   auto& other = static_cast<HitRecorder&>(part);
   join_lists(photons, other.photons);
+  join_lists(histories, other.histories);
   emitted_count += other.emitted_count;
 }
 
 void HitRecorder::hit(const ArrivingPhoton& photon) {
   if (leaves_out(photon.number) || !is_rough(scene_.material_of(photon.event.hit)) || !filter_(photon)) return;
   photons.push_back(as_photon(photon, photon.state.throughput));
+  if (keeps_histories_) histories.push_back(history_of(photon, photon.event.hit.shape));
 }
 
 void CachePointRecorder::join(PhotonRecorder& part) {

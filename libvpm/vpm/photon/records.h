@@ -29,7 +29,7 @@ class PhotonFilter {
     return filter;
   }
   bool operator()(const ArrivingPhoton& photon) const {
-    const uint32_t answer = uint32_t{photon.direct} | uint32_t{photon.specular} << 1 |
+    const uint32_t answer = uint32_t{photon.direct()} | uint32_t{photon.specular()} << 1 |
                             uint32_t{photon.from_rough} << 2 | (photon.turn ? 8u : 0u);
     return (kept_ >> answer & 1) != 0;
   }
@@ -46,6 +46,15 @@ inline constexpr PhotonFilter photon_from_rough([](bool, bool, bool from_rough) 
 /// Keeps photons that are not `from_rough`. Photons straight from lights are kept only if `direct`. Photons that
 /// mirrors and smooth glass, but nothing else, have scattered are kept only if `specular`.
 PhotonFilter caustic_photons(bool direct, bool specular);
+
+/// Where a stored photon comes from.
+struct PhotonHistory {
+  uint64_t number = 0;                        // of the photon among those emitted in the pass
+  uint32_t place = 0;                         // the medium's number or the shape's, where it is stored
+  uint32_t scatterings = 0, reflections = 0;  // before it came there: ArrivingPhoton
+  float density = 1.0f;                       // what its power was divided by: stored_power()
+  bool along_flight = false;                  // did it fly past there, in place of colliding?
+};
 
 /// Records photons at their collisions in scattering media, before the choice between absorption and scattering. Their
 /// power is the power that collides; under VolumeForm::density_at_query it is divided by the density there
@@ -65,11 +74,13 @@ class CollisionRecorder : public PhotonRecorder {
   size_t stored() const override;
   RecordNeeds needs() const override { return {.flights = fills_, .hits = false}; }
   bool reads_density() const override { return form_ == VolumeForm::density_at_query; }
+  void keep_histories() override { keeps_histories_ = true; }
   void flew(const Track& track, const ArrivingPhoton& photon, Rng& rng) override;
   void collided(const ArrivingPhoton& photon) override;
 
-  std::vector<std::vector<Photon>> photons;  // by medium; powers not yet divided by the photons emitted
-  uint64_t floored = 0;                      // of these: photons where the density is below the floor
+  std::vector<std::vector<Photon>> photons;           // by medium; powers not yet divided by the photons emitted
+  std::vector<std::vector<PhotonHistory>> histories;  // of these, where they are kept
+  uint64_t floored = 0;                               // of these: photons where the density is below the floor
 
  private:
   const Scene& scene_;
@@ -77,6 +88,7 @@ class CollisionRecorder : public PhotonRecorder {
   ThinParts thin_;
   PhotonFilter filter_;
   bool fills_;  // up to the floor, along flights
+  bool keeps_histories_ = false;
 };
 
 /// If irradiance is cached, one in kCachePointStep photons finds the cache points [Christensen1999].
@@ -96,11 +108,13 @@ class HitRecorder : public PhotonRecorder {
   void join(PhotonRecorder& part) override;
   size_t stored() const override { return use_ == HitUse::other_map ? 0 : photons.size(); }
   RecordNeeds needs() const override { return {.flights = false, .collisions = false}; }
+  void keep_histories() override { keeps_histories_ = true; }
   void emitted(uint64_t number) override { emitted_count += leaves_out(number) ? 0 : 1; }
   void hit(const ArrivingPhoton& photon) override;
 
-  std::vector<Photon> photons;  // powers in W, not yet divided by `emitted_count`
-  uint64_t emitted_count = 0;   // emitted photons, without those that the map leaves out
+  std::vector<Photon> photons;           // powers in W, not yet divided by `emitted_count`
+  std::vector<PhotonHistory> histories;  // of these, where they are kept
+  uint64_t emitted_count = 0;            // emitted photons, without those that the map leaves out
 
  private:
   bool leaves_out(uint64_t number) const {
@@ -110,6 +124,7 @@ class HitRecorder : public PhotonRecorder {
   const Scene& scene_;
   PhotonFilter filter_;
   HitUse use_;
+  bool keeps_histories_ = false;
 };
 
 /// A point on a Lambertian surface, found by a photon. Its normals are on the side on which the photon arrived.

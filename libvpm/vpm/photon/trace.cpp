@@ -62,9 +62,9 @@ class PhotonPath {
   struct Branch {
     PathState state;
     Event event;
+    Vec3 departed{0.0f};  // where its flight began, m
     int events = 0;
-    bool direct = true;
-    bool specular = true;     // nothing but mirrors and glass has scattered it
+    uint32_t scatterings = 0, reflections = 0;
     bool from_rough = false;  // the last non-specular scattering was at a surface
     Turn turn;
   };
@@ -78,6 +78,7 @@ class PhotonPath {
     at_ = {};
     at_.state = emit_photon(scene_, drawn.point);
     at_.state.throughput /= drawn.density;
+    at_.departed = at_.state.ray.origin;
     emitted_power_ = sum_channels(at_.state.throughput);
     balance_ = -Rgbd(at_.state.throughput);
     weight_ = {};
@@ -119,6 +120,7 @@ class PhotonPath {
   /// What happens at the event.
   void go_on(Rng& rng) {
     alive_ = true;
+    if (at_.event.kind != EventKind::limit) at_.departed = at_.state.ray.origin;
     if (at_.event.kind == EventKind::collision) {
       at_.turn = {at_.state.ray.direction, at_.state.medium, at_.event.density};
       scatter_in(scene_.media[at_.state.medium], rng);
@@ -135,6 +137,7 @@ class PhotonPath {
   }
   void escape() {
     deposit(out_.ledger.escaped, Rgbd(at_.state.throughput));
+    for (const auto& recorder : out_.recorders) recorder->escaped(arriving());
     alive_ = false;
   }
   void cut() {
@@ -150,7 +153,8 @@ class PhotonPath {
     for (PhotonRecorder* const recorder : of_collisions_) recorder->collided(arriving());
     const MediumProperties here = scene_.media[at_.state.medium].properties(at_.state.ray.origin);
     deposit(out_.ledger.absorbed_in_media, Rgbd(at_.state.throughput * (Rgb(1.0f) - here.albedo())));
-    at_.direct = at_.specular = at_.from_rough = false;
+    ++at_.scatterings;
+    at_.from_rough = false;
   }
 
   void meet_surface() {
@@ -159,9 +163,8 @@ class PhotonPath {
     if (!alive_) return;
     const bool rough = is_rough(scene_.material_of(at_.event.hit));
     for (PhotonRecorder* const recorder : of_hits_) recorder->hit(arriving());
-    at_.direct = false;
+    ++(rough ? at_.scatterings : at_.reflections);
     at_.from_rough |= rough;
-    at_.specular &= !rough;
   }
 
   void scatter_in(const Medium& medium, Rng& rng) {
@@ -180,7 +183,7 @@ class PhotonPath {
   }
 
   ArrivingPhoton arriving() const {
-    return {number_, at_.state, at_.event, at_.direct, at_.specular, at_.from_rough, at_.turn};
+    return {number_, at_.state, at_.event, at_.departed, at_.scatterings, at_.reflections, at_.from_rough, at_.turn};
   }
 
   /// What the path is worth next to others: its importance, or without any its power.

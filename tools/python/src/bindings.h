@@ -16,6 +16,7 @@ namespace py = pybind11;
 
 // Each adds its part to the module.
 void bind_scenes(py::module_& module);
+void bind_photons(py::module_& module);
 void bind_renders(py::module_& module);
 void bind_studies(py::module_& module);
 

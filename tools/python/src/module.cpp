@@ -72,6 +72,7 @@ PYBIND11_MODULE(_vpm, module) {
   module.def("set_threads", &set_threads, pybind11::arg("count"));
   module.def("thread_count", &thread_count);
   python::bind_scenes(module);
+  python::bind_photons(module);
   python::bind_renders(module);
   python::bind_studies(module);
 }

@@ -17,6 +17,7 @@
 namespace vpm {
 
 struct PhotonBeam;
+struct PhotonHistory;
 
 /// A photon map that an estimator gathers from in a pass.
 struct MapInfo {
@@ -28,6 +29,9 @@ struct MapInfo {
   uint64_t emitted = 0;                                     // for this map alone; 0: as many as in the ledger
   /// What is gathered besides, before build(), by medium.
   const std::vector<std::vector<PhotonBeam>>* flights = nullptr;
+  /// Of the photons, where their recorders keep these.
+  const std::vector<std::vector<PhotonHistory>>* media_histories = nullptr;
+  const std::vector<PhotonHistory>* surface_histories = nullptr;
 };
 
 /// The photon tracing of a pass, once it is over.

@@ -70,8 +70,9 @@ Pass render_block(const Scene& scene, const RenderSettings& settings, const Pass
 }  // namespace
 
 void trace_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
-                RenderStatistics& statistics) {
-  const Recorders recorders = estimators.recorders();
+                RenderStatistics& statistics, const Recorders& more) {
+  Recorders recorders = estimators.recorders();
+  recorders.insert(recorders.end(), more.begin(), more.end());
   if (recorders.empty()) return;
   TraceSettings trace = trace_settings(settings, run);
   const bool density = std::any_of(recorders.begin(), recorders.end(),
@@ -93,6 +94,11 @@ void trace_pass(const Scene& scene, const RenderSettings& settings, const Estima
   statistics.trace_seconds = tracing.seconds();
   for (Estimator* estimator : estimators.all())
     estimator->trace_more({*strategy, trace, statistics.ledger.emitted_count}, statistics);
+}
+
+void trace_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
+                RenderStatistics& statistics) {
+  trace_pass(scene, settings, estimators, run, statistics, {});
 }
 
 void prepare_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,

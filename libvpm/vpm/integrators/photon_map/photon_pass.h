@@ -17,11 +17,14 @@ struct PassRun {
   std::optional<PhotonBlock> block = {};  // the photons of the pass that are traced; nothing: all of them
 };
 
-/// Traces the photons of the pass into the recorders of the estimators, if these have any. They start with random
+/// Traces the photons of the pass into the recorders of the estimators, if there are any. They start with random
 /// numbers, whatever PhotonSettings::sequence says, where a guide emits them, where the nearest are gathered,
 /// and where they find places for irradiance.
 void trace_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                 RenderStatistics& statistics);
+/// The same with recorders of someone else, which change none of the photons.
+void trace_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
+                RenderStatistics& statistics, const Recorders& more);
 /// Does the same, and then builds the estimators.
 void prepare_pass(const Scene& scene, const RenderSettings& settings, const Estimators& estimators, const PassRun& run,
                   RenderStatistics& statistics);

@@ -37,12 +37,13 @@ void Neighbours::finish() {
   std::rotate(photons_.begin(), photons_.begin() + farthest, photons_.begin() + farthest + 1);
 }
 
-NearestMap::NearestMap(const std::vector<Photon>& photons, float scale) {
+NearestMap::NearestMap(const std::vector<Photon>& photons, float scale, std::vector<uint32_t>* numbers) {
   LeafOrder tree = sort_into_leaves(photons, kLeaf);
   leaves_ = tree.leaves;
   splits_ = std::move(tree.splits);
   photons_ = PhotonTable(photons, tree.order, scale);
   bounds_ = bounds_of(photons);
+  if (numbers) *numbers = std::move(tree.order);
 }
 
 size_t NearestMap::memory_bytes() const {

@@ -80,8 +80,9 @@ class NearestMap {
   static constexpr uint32_t kMany = 512;  // neighbours, of which it pays to look at whole nodes first
 
   NearestMap() = default;
-  /// Sorts the photons, with powers multiplied by `scale`: 1/emitted.
-  NearestMap(const std::vector<Photon>& photons, float scale);
+  /// Sorts the photons, with powers multiplied by `scale`: 1/emitted. Their numbers in the order of the map go into
+  /// `numbers`, unless that is null.
+  NearestMap(const std::vector<Photon>& photons, float scale, std::vector<uint32_t>* numbers = nullptr);
 
   /// The `count` nearest photons within `max_radius` (m; may be infinite) of `point` among those for which
   /// accept(const PackedDirection& travel, offset from `point`) holds. Returns how many photons it computed the

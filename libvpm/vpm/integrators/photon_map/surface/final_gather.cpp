@@ -37,7 +37,12 @@ FinalGather::FinalGather(const Scene& scene, const RenderSettings& settings, con
 std::vector<MapInfo> FinalGather::maps() const {
   MapInfo ends = ends_.info();
   ends.shows_bias = !cache_points_;
-  return {ends, {"caustics", 2, true, nullptr, &caustic_photons_.photons, caustic_settings_.emitted}};
+  return {ends,
+          {.section = "caustics",
+           .dimension = 2,
+           .surfaces = &caustic_photons_.photons,
+           .emitted = caustic_settings_.emitted,
+           .surface_histories = &caustic_photons_.histories}};
 }
 
 Recorders FinalGather::recorders() {

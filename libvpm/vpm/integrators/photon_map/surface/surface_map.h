@@ -26,7 +26,13 @@ class SurfaceMap {
       : scene_(scene), gather_(gather), pass_(pass), hits_(scene, filter, use) {}
 
   /// The map whose settings are in the table [integrator.surface] of the scene file.
-  MapInfo info() const { return {"surface", 2, true, nullptr, &hits_.photons, hits_.emitted_count}; }
+  MapInfo info() const {
+    return {.section = "surface",
+            .dimension = 2,
+            .surfaces = &hits_.photons,
+            .emitted = hits_.emitted_count,
+            .surface_histories = &hits_.histories};
+  }
   PhotonRecorder* recorder() { return &hits_; }
   void build(RenderStatistics& statistics);
   KernelEstimate gather(const SurfaceView& view, EyeWork& work) const { return gather_from(map_, scene_, view, work); }

@@ -18,7 +18,9 @@ PhotonBeams::PhotonBeams(const Scene& scene, const VolumeSettings& settings, con
 
 std::vector<MapInfo> PhotonBeams::maps() const {
   MapInfo map = beams_.maps().front();
-  map.media = collisions_.maps().front().media;
+  const MapInfo collisions = collisions_.maps().front();
+  map.media = collisions.media;
+  map.media_histories = collisions.media_histories;
   return {map};
 }
 

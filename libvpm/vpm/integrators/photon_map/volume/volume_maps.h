@@ -38,7 +38,12 @@ class VolumeMaps {
                     pass.filter(turned)) {}
 
   ScatteredLight finds() const { return {pass_.once, true}; }
-  std::vector<MapInfo> maps() const { return {{"volume", dimension_, true, &collisions_.photons}}; }
+  std::vector<MapInfo> maps() const {
+    return {{.section = "volume",
+             .dimension = dimension_,
+             .media = &collisions_.photons,
+             .media_histories = &collisions_.histories}};
+  }
   Recorders recorders() { return {&collisions_}; }
   const VolumeSettings& settings() const { return settings_; }
   const PassOfMaps& pass() const { return pass_.maps; }

@@ -1,0 +1,217 @@
+"""Photons as arrays: those that a render stores, their flights, and photon maps of any photons."""
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _vpm
+from ._render import _whole
+from ._scene import Overrides, Scene, _rows
+from ._vpm import InputError
+
+#: What the numbers in the field "event" stand for.
+EVENTS = tuple(_vpm.photon_events())
+
+
+class Photons:
+    """The photons that the maps of one pass store, those that a render gathers.
+
+    array: structured, read-only, a row for each photon, with the fields
+        position (m), direction (of travel, unit), power (W, red, green, blue; divided by the photons emitted),
+        density (of a grid at the photon, relative to its largest; else 1: maps store power / density),
+        number (of the photon among those emitted), place (its name is in `places`),
+        scatterings (before it came there) and reflections (by mirrors and smooth glass),
+        map (its name is in `maps`) and event (its name is in EVENTS).
+    emitted: how many photons were. energy: where their power went, W: "emitted", "absorbed_in_media",
+        "absorbed_on_surfaces", "escaped".
+
+    Powers of the events "collision" and "hit" sum up to what arrived in a region. Those of the event "flight" stand for
+    collisions that there are too few of where a grid is thin: they belong to sums of power / density alone.
+    """
+
+    def __init__(self, stored: _vpm.StoredPhotons):
+        self._stored = stored
+        self.array: NDArray[Any] = stored.array()
+        self.maps, self.places, self.emitted, self.energy = stored.maps, stored.places, stored.emitted, stored.energy()
+
+    def of(self, map: str | None = None, place: str | None = None) -> NDArray[Any]:
+        """The rows of the map, or of the medium or shape, of that name."""
+        chosen = np.ones(len(self.array), bool)
+        if map is not None:
+            chosen &= self.array["map"] == _number(map, self.maps, "map")
+        if place is not None:
+            chosen &= self.array["place"] == _number(place, self.places, "medium or shape")
+        return self.array[chosen]
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes a .ply or .csv file as `vpm photons` does, or an .npz: each field an array, and the lists of names."""
+        _write(self._stored, os.fspath(path), self.array, maps=self.maps, places=self.places, events=EVENTS,
+               emitted=self.emitted)
+
+    def __len__(self) -> int:
+        return len(self.array)
+
+    def __repr__(self) -> str:
+        return f"Photons({len(self)} stored of {self.emitted} emitted, in {' and '.join(self.maps) or 'no map'})"
+
+
+class Flights:
+    """All flights of the photons of one pass.
+
+    array: structured, read-only, a row for each straight flight, photon by photon in the order of travel, with the
+        fields start and end (m), power (W, on arrival), place (its name is in `places`; 2^32 - 1 where it escapes),
+        number (of the photon), scatterings and reflections (before it arrives), event (its name is in EVENTS).
+    """
+
+    def __init__(self, flights: _vpm.PhotonFlights):
+        self._flights = flights
+        self.array: NDArray[Any] = flights.array()
+        self.places, self.emitted = flights.places, flights.emitted
+
+    def paths(self) -> list[NDArray[np.float32]]:
+        """The corners of each path, an array (n, 3), m: where it begins, and the ends of its flights."""
+        rows = self.array
+        goes_on = (rows["number"][1:] == rows["number"][:-1]) & (rows["start"][1:] == rows["end"][:-1]).all(axis=1)
+        parts = np.split(np.arange(len(rows)), np.flatnonzero(~goes_on) + 1) if len(rows) else []
+        return [np.concatenate([rows["start"][part[:1]], rows["end"][part]]) for part in parts]
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes a .ply or .csv file as `vpm photons --paths` does, or an .npz."""
+        _write(self._flights, os.fspath(path), self.array, places=self.places, events=EVENTS, emitted=self.emitted)
+
+    def __len__(self) -> int:
+        return len(self.array)
+
+    def __repr__(self) -> str:
+        return f"Flights({len(self)} of {self.emitted} photons)"
+
+
+def photons(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
+            seed: int | None = None, number: int = 0) -> Photons:
+    """The photons that pass `number`, from 0, of a render stores in its maps.
+
+    scene: a `Scene`, or what makes one. Its integrator must be "photon-map".
+    """
+    return Photons(_vpm.stored_photons(*_asked(scene, overrides, seed, number)))
+
+
+def flights(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
+            seed: int | None = None, number: int = 0) -> Flights:
+    """All flights of the same photons, from the lights to where they end."""
+    return Flights(_vpm.photon_flights(*_asked(scene, overrides, seed, number)))
+
+
+class PhotonMap:
+    """A photon map of any photons, for questions about many points at once.
+
+    photons: a structured array with the fields of `Photons.array`, of which power / density is gathered, as renders do;
+        or positions, an array (n, 3), m.
+    powers: array (n, 3), W; 1 unless given. directions: array (n, 3), of travel, of any length but 0; up unless given.
+
+    Queries run on all threads (`set_threads`). Points side by side in an array are quickest side by side in space.
+    """
+
+    def __init__(self, photons: ArrayLike, powers: ArrayLike | None = None, directions: ArrayLike | None = None):
+        rows = np.asarray(photons)
+        if rows.dtype.names:
+            missing = {"position", "direction", "power", "density"} - set(rows.dtype.names)
+            if missing:
+                raise InputError(f"an array of photons has the fields of Photons.array, but not {', '.join(missing)}")
+            if powers is None:
+                powers = rows["power"] / rows["density"][:, None]
+            if directions is None:
+                directions = rows["direction"]
+            rows = rows["position"]
+        positions = _finite(rows, "positions")
+        powers = np.ones_like(positions) if powers is None else _finite(powers, "powers", len(positions))
+        if powers.size and powers.min() < 0:
+            raise InputError("powers must not be negative")
+        if directions is None:
+            directions = np.broadcast_to(np.float32([0, 1, 0]), positions.shape)
+        self._size = len(positions)
+        self._map = _vpm.PhotonQueries(positions, _unit(directions, "directions", len(positions)), powers)
+
+    def __len__(self) -> int:
+        return self._size
+
+    def within(self, points: ArrayLike, radius: float, *, lists: bool = False) -> Any:
+        """How many photons are nearer to each point than `radius`, m: an array of n counts. With `lists`: the arrays
+        `first` and `numbers`; those of point i are numbers[first[i]:first[i + 1]], in rising order."""
+        points = _finite(points, "points")
+        return (self._map.within if lists else self._map.count_within)(points, _radius(radius))
+
+    def nearest(self, points: ArrayLike, k: int) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
+        """The numbers of the k nearest photons of each point, nearest first, and their distances, m: arrays (n, k)."""
+        k = _whole(k, "k", 1, 1_000_000)
+        if k > self._size:
+            raise InputError(f"k: there are only {self._size} photons, not {k}")
+        return self._map.nearest(_finite(points, "points"), k)
+
+    def estimate(self, points: ArrayLike, radius: float, *, normals: ArrayLike | None = None,
+                 directions: ArrayLike | None = None, g: float = 0.0, kernel: str = "epanechnikov"
+                 ) -> NDArray[np.float32]:
+        """The density of power at each point, an array (n, 3).
+
+        With `normals`: the irradiance of a surface there, W/m^2, by photons that arrive on that side, over discs.
+        With `directions`: what a medium scatters into that direction of travel, over its albedo, W/(m^3 sr), over
+        balls, by the phase function of Henyey and Greenstein with mean cosine `g`.
+        With neither: what collides, W/m^3, over balls.
+        kernel: "constant", "cone", "epanechnikov", "biweight", "triweight" or "order-4".
+        """
+        points = _finite(points, "points")
+        if normals is not None and directions is not None:
+            raise InputError("give normals (of surfaces) or directions (in media), not both")
+        if not -1.0 < g < 1.0:
+            raise InputError(f"g: {g} is not a mean cosine above -1 and below 1")
+        return self._map.estimate(points, _radius(radius), kernel,
+                                  None if normals is None else _unit(normals, "normals", len(points)),
+                                  None if directions is None else _unit(directions, "directions", len(points)), g)
+
+
+def _asked(scene: Any, overrides: Overrides, seed: int | None, number: int) -> tuple[_vpm.Job, int | None, int]:
+    if not isinstance(scene, Scene):
+        scene = Scene(scene, overrides)
+    elif overrides is not None:
+        raise InputError("a Scene is made already: give overrides to Scene(...)")
+    number = _whole(number, "number", 0, 1_000_000_000) or 0
+    return scene._job, _whole(seed, "seed", 0, 2**64 - 1), number
+
+
+def _number(name: str, names: list[str], what: str) -> int:
+    if name not in names:
+        raise InputError(f"there is no {what} '{name}'; there are: {', '.join(names)}")
+    return names.index(name)
+
+
+def _write(data: Any, path: str, rows: NDArray[Any], **names: Any) -> None:
+    if path.endswith(".npz"):
+        with open(path, "wb") as file:
+            np.savez(file, **{field: rows[field] for field in rows.dtype.names}, **names)
+    else:
+        data.write(path)
+
+
+def _finite(values: ArrayLike, what: str, count: int | None = None) -> NDArray[np.float32]:
+    array = _rows(values, 3, what)
+    if count is not None and len(array) != count:
+        raise InputError(f"there are {len(array)} {what}, not {count}")
+    if not np.isfinite(array).all():
+        raise InputError(f"{what} must be finite; row {np.flatnonzero(~np.isfinite(array).all(axis=1))[0]} is not")
+    return array
+
+
+def _unit(values: ArrayLike, what: str, count: int) -> NDArray[np.float32]:
+    array = _finite(values, what, count)
+    lengths = np.linalg.norm(array.astype(np.float64), axis=1, keepdims=True)
+    if not (lengths > 0).all():
+        raise InputError(f"{what} must not be 0; row {np.flatnonzero(lengths[:, 0] == 0)[0]} is")
+    return (array / lengths).astype(np.float32)
+
+
+def _radius(radius: float) -> float:
+    if not 0.0 < radius < float("inf"):
+        raise InputError(f"radius: {radius} is not a number of metres above 0")
+    return float(radius)

@@ -1,0 +1,59 @@
+// vpm photons: scene file in; the photons of its maps, or how they flew, out.
+#include <fmt/format.h>
+#include <cstdio>
+
+#include "commands.h"
+#include "pass_run.h"
+#include "this_process.h"
+#include "vpm/base/parallel.h"
+#include "vpm/input/scene_file.h"
+#include "vpm/integrators/photon_map/stored_photons.h"
+#include "vpm/job/photon_files.h"
+
+namespace vpm::tools {
+namespace {
+
+/// The photons of each map at each place, and the power that they brought there.
+void print_photons(const StoredPhotons& stored) {
+  for (size_t map = 0; map < stored.maps.size(); ++map)
+    for (size_t place = 0; place < stored.places.size(); ++place) {
+      uint64_t count = 0;
+      Rgbd power(0.0);
+      for (const StoredPhoton& photon : stored.photons)
+        if (photon.map == map && photon.place == place) {
+          ++count;
+          if (photon.event != PhotonEvent::flight) power += Rgbd(photon.power);
+        }
+      if (count > 0)
+        fmt::print("  {} map, {}: {} photons, ({:.6g}, {:.6g}, {:.6g}) W\n", stored.maps[map], stored.places[place],
+                   count, power.r, power.g, power.b);
+    }
+}
+
+}  // namespace
+
+int photons_command(const PhotonsOptions& options) {
+  set_threads(options.threads);
+  const std::filesystem::path output =
+      options.output.empty() ? std::filesystem::path(options.scene).stem().string() + ".ply" : options.output;
+  RenderJob job = load_scene(options.scene, components_first(options.overrides));
+  check_photon_file(output);
+  check_not_read(output, job);
+  if (options.seed) job.settings.seed = *options.seed;
+  choose(job, *clock_of_process());
+  print_notes(job);
+  const PassProgress progress{progress_enabled(options.progress)};
+  if (options.paths) {
+    const PhotonFlights flights = photon_flights(job.scene, job.settings, options.pass, progress);
+    write_flights(flights, output);
+    fmt::print("{}: {} flights of {} photons\n", output.string(), flights.flights.size(), flights.emitted);
+    return 0;
+  }
+  const StoredPhotons stored = stored_photons(job.scene, job.settings, options.pass, progress);
+  write_photons(stored, output);
+  fmt::print("{}: {} stored photons of {} emitted\n", output.string(), stored.photons.size(), stored.emitted);
+  print_photons(stored);
+  return 0;
+}
+
+}  // namespace vpm::tools
