@@ -105,7 +105,8 @@ TEST(BeamRecorder, KnowsTheCollisionThatAFlightBeganAt) {
   const Track track{{{Vec3(0.0f), Vec3(1.0f, 0.0f, 0.0f)}, {0.0f, 0.5f}, 0, Rgb(2.0f)}, 1.0f};
   Rng rng(1, rng_stream(RngUse::test, 24), 0);
   for (BeamRecorder* recorder : {&with, &without})
-    for (const Turn* each : {&turn, &none}) recorder->flew(track, {0, state, event, false, false, false, *each}, rng);
+    for (const Turn* each : {&turn, &none})
+      recorder->flew(track, {0, state, event, Vec3(0.0f), 1, 0, false, *each}, rng);
   EXPECT_FLOAT_EQ(with.beams[0][0].scattering_rate, 0.6f);  // the mean of the channels, at twice the density
   EXPECT_NEAR(glm::length(with.beams[0][0].turned_from.unpack() - turn.from), 0.0f, 1e-3f);
   for (const float rate : {with.beams[0][1].scattering_rate, without.beams[0][0].scattering_rate})

@@ -1,4 +1,7 @@
 """Photons as arrays: summed by brute force they give the pixels of a render, and the ledger its energy."""
+import doctest
+from pathlib import Path
+
 import numpy as np
 import pytest
 import vpm
@@ -304,3 +307,10 @@ def test_the_program_writes_the_same_photons(tmp_path, vpm_program):
     vpm.photons(scene, seed=4, number=2).write(tmp_path / "b.csv")
     assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
     assert '"ball, grey"' in (tmp_path / "a.csv").read_text()
+
+
+def test_the_lines_of_the_page_print_what_it_says(monkeypatch):
+    project = Path(__file__).resolve().parents[2]
+    monkeypatch.chdir(project)
+    done = doctest.testfile(str(project / "tools/python/first_photon_map.md"), module_relative=False)
+    assert done.attempted > 30 and done.failed == 0

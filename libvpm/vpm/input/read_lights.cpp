@@ -7,8 +7,7 @@ namespace vpm {
 
 Rgb read_emitted(TableReader& table, const std::string& key) {
   const Rgb value = table.rgb(key, kNotNegative);
-  if (is_black(value))
-    table.fail(key, table.title() + " emits nothing", "make '" + key + "' positive, or remove it");
+  if (is_black(value)) table.fail(key, table.title() + " emits nothing", "make '" + key + "' positive, or remove it");
   return value;
 }
 

@@ -6,7 +6,8 @@
     result.write("smoke.exr")           # what `vpm render` writes
 
 `Scene`, `Grid` and `Mesh` make scenes; `render` and `passes` render them; `photons` and `flights` are what renders are
-made of, and `PhotonMap` gathers them; `error`, `exact` and `read_comparison` say how good pictures are. Lengths are in m, coefficients in 1/m, radiance in W/(m^2 sr).
+made of, and `PhotonMap` gathers them; `error`, `exact` and `read_comparison` say how good pictures are. Lengths
+are in m, coefficients in 1/m, radiance in W/(m^2 sr).
 """
 from ._photons import EVENTS, Flights, PhotonMap, Photons, flights, photons
 from ._render import Interrupted, Result, passes, render
