@@ -8,7 +8,12 @@ namespace {
 
 rc::Gen<Phase> any_phase() {
   return rc::gen::oneOf(
-      rc::gen::element<Phase>(Isotropic{}, Rayleigh{}),
+      rc::gen::element<Phase>(Isotropic{}, Rayleigh{}, TwoLobes(0.9f, -0.5f, 0.8f)),
+      rc::gen::map(number(5.0, 50.0), [](double d) { return Phase(Droplets(static_cast<float>(d))); }),
+      rc::gen::map(rc::gen::pair(number(-0.99, 0.99), number(0.0, 100.0)),
+                   [](const std::pair<double, double>& numbers) {
+                     return Phase(Draine{static_cast<float>(numbers.first), static_cast<float>(numbers.second)});
+                   }),
       rc::gen::map(number(-0.9999, 0.9999), [](double g) { return Phase(HenyeyGreenstein{static_cast<float>(g)}); }));
 }
 
@@ -60,6 +65,45 @@ RC_GTEST_PROP(PhaseProperty, SamplesInvertTheCumulativeDistribution, ()) {
   const double share = (1.0 + gg) * e / (2.0 * gg) * (1.0 / e - 1.0 / std::sqrt(e * e + 2.0 * gg * away));
   // Rounding moves a direction by 1e-7 rad, some share of a peak e wide.
   RC_ASSERT(std::abs(share - (1.0 - u.x)) < 1e-5 + 1e-6 / e * 0.5);
+}
+
+/// The share of Draine's function that lies farther from the peak than a sample is 1 - u.x: by midpoints in t = (1 +
+/// a^2
+/// - 2 a cos)^(1/2), as the density falls with 1/t^2 there.
+RC_GTEST_PROP(PhaseProperty, SamplesOfDraineInvertTheCumulativeDistribution, ()) {
+  const Draine phase{static_cast<float>(*number(0.0, 0.98)), static_cast<float>(*number(0.0, 100.0))};
+  const Vec3 travel = *unit_vector();
+  const Vec2 u = *uniform_pair();
+  const Vec3d d(phase.sample(travel, u));
+  RC_ASSERT(std::abs(glm::length(d) - 1.0) < 5e-7);
+  const Vec3d apart = d - Vec3d(travel);
+  const double away = 0.5 * glm::dot(apart, apart);
+  constexpr int kSteps = 20'000;
+  double share = 0.0;
+  for (int i = 0; i < kSteps; ++i) {  // away = sampled x^2: dense near the peak
+    const double x = (i + 0.5) / kSteps, at = away * x * x;
+    share += 2.0 * kPiD * phase.value(Vec3(0, 0, 1), Vec3(Vec3d(std::sqrt(at * (2.0 - at)), 0.0, 1.0 - at))) * 2.0 *
+             away * x / kSteps;
+  }
+  RC_ASSERT(std::abs(share - u.x) < 2e-4);
+}
+
+/// Alpha = 0 is Henyey and Greenstein's function, and alpha = 1 with g = 0 Rayleigh's.
+TEST(Draine, HoldsTheOthers) {
+  for (const float cosine : {-1.0f, -0.3f, 0.0f, 0.8f, 1.0f}) {
+    EXPECT_FLOAT_EQ((Draine{0.7f, 0.0f}.value(cosine)), HenyeyGreenstein{0.7f}.value(cosine));
+    EXPECT_FLOAT_EQ((Draine{0.0f, 1.0f}.value(cosine)), Rayleigh{}.value(cosine));
+  }
+}
+
+/// Of 10 um the fits of [Jendersie2023], computed by hand from its formulae.
+TEST(Droplets, AreThoseOfTheFits) {
+  const Droplets droplets(10.0f);
+  EXPECT_NEAR(droplets.a.g, 0.98818f, 1e-5f);
+  EXPECT_NEAR(droplets.b.g, 0.55567f, 1e-4f);
+  EXPECT_NEAR(droplets.b.alpha, 21.995f, 2e-2f);
+  EXPECT_NEAR(droplets.first, 1.0f - 0.48193f, 1e-4f);
+  EXPECT_NEAR(droplets.mean_cosine(), 0.864f, 1e-3f);
 }
 
 }  // namespace

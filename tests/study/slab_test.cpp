@@ -19,6 +19,23 @@ constexpr double kHalfSpace = std::numeric_limits<double>::infinity();
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
+/// Moments against integrals of the phase function times Legendre polynomials, by midpoints.
+TEST(PhaseMoments, OfDraineAreIntegrals) {
+  for (const auto& [g, alpha] : {std::pair{0.6, 20.0}, {-0.3, 1.0}, {0.0, 5.0}, {0.8, 0.0}}) {
+    const PhaseMoments moments = draine_moments(g, alpha);
+    constexpr int kSteps = 200'000;
+    std::vector<double> sums(6, 0.0);
+    for (int i = 0; i < kSteps; ++i) {
+      const double x = 2.0 * (i + 0.5) / kSteps - 1.0;
+      const double value = (1.0 + alpha * x * x) * (1.0 - g * g) / std::pow(1.0 + g * g - 2.0 * g * x, 1.5);
+      for (unsigned l = 0; l < sums.size(); ++l) sums[l] += value * std::legendre(l, x);
+    }
+    for (size_t l = 1; l < sums.size(); ++l)
+      EXPECT_NEAR(l < moments.size() ? moments[l] : 0.0, sums[l] / sums[0], 1e-8) << "moment " << l;
+  }
+  EXPECT_EQ(draine_moments(0.0, 1.0).at(2), rayleigh_moments().at(2));
+}
+
 TEST(ExactSlab, ReflectsAndTransmitsAsTheOracleSays) {
   for (const auto& oracle : oracle_cases("s4_slab_RT")) expect_slab_oracle(oracle);
 }

@@ -8,6 +8,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/vec.h"
+#include "vpm/medium/phase/phase.h"
 #include "vpm/study/exact/airlight.h"
 #include "vpm/study/exact/point_source.h"
 #include "vpm/study/exact/profile.h"
@@ -29,8 +30,13 @@ constexpr ExactLimits kAnchored{-kInfinite, kInfinite, true, true};  // any fini
 constexpr ExactLimits kMeanCosine{-0.999, 0.999};  // beyond, it takes thousands of Legendre moments and more
 
 const ExactKey kAlbedoKey{"albedo", "single scattering albedo, 0 to 1", "1"};
-const ExactKey kPhaseKey{"phase", "hg (Henyey-Greenstein), isotropic or rayleigh", "hg"};
-const ExactKey kMeanCosineKey{"g", "mean cosine of phase=hg, -0.999 to 0.999", "0"};
+const std::vector<ExactKey> kPhaseKeys{
+    {"phase", "hg (Henyey-Greenstein), isotropic, rayleigh, draine, two-lobes or droplets", "hg"},
+    {"g", "of phase=hg, draine, and the first of two-lobes, -0.999 to 0.999", "0"},
+    {"alpha", "of phase=draine, 0 to 10000", "0"},
+    {"g2", "of the second of phase=two-lobes, -0.999 to 0.999", "0"},
+    {"share", "that the first of phase=two-lobes scatters, 0 to 1", "0.5"},
+    {"diameter", "of phase=droplets, micrometres, 5 to 50", "10"}};
 
 std::vector<std::optional<double>> optionals(const std::vector<double>& values) {
   return {values.begin(), values.end()};
@@ -53,11 +59,26 @@ ExactQuantity closed_form(const std::string& name, const std::string& unit, cons
 }
 
 PhaseMoments read_phase(ExactArguments& arguments) {
-  const std::string phase = arguments.word("phase", {"hg", "isotropic", "rayleigh"});
+  const std::string phase = arguments.word("phase", {"hg", "isotropic", "rayleigh", "draine", "two-lobes", "droplets"});
   if (phase == "isotropic") return isotropic_moments();
   if (phase == "rayleigh") return rayleigh_moments();
+  if (phase == "droplets") {
+    const Droplets droplets(static_cast<float>(arguments.number("diameter", {5.0, 50.0})));
+    return mixed_moments(henyey_greenstein_moments(droplets.a.g), draine_moments(droplets.b.g, droplets.b.alpha),
+                         droplets.first);
+  }
   const double g = arguments.number("g", kMeanCosine);
-  return g == 0.0 ? isotropic_moments() : henyey_greenstein_moments(g);
+  if (phase == "draine") return draine_moments(g, arguments.number("alpha", {0.0, 1e4}));
+  if (phase == "two-lobes")
+    return mixed_moments(henyey_greenstein_moments(g), henyey_greenstein_moments(arguments.number("g2", kMeanCosine)),
+                         arguments.number("share", kFraction));
+  return henyey_greenstein_moments(g);
+}
+
+/// Keys with those of the phase function behind the first.
+std::vector<ExactKey> with_phase(std::vector<ExactKey> keys) {
+  keys.insert(keys.begin() + 1, kPhaseKeys.begin(), kPhaseKeys.end());
+  return keys;
 }
 
 std::vector<ExactQuantity> solve_layer(ExactArguments& arguments, double tau) {
@@ -95,13 +116,11 @@ std::vector<ExactQuantity> solve_layer(ExactArguments& arguments, double tau) {
 }
 
 std::vector<ExactKey> layer_keys() {
-  return {kAlbedoKey,
-          kPhaseKey,
-          kMeanCosineKey,
-          {"incidence", "collimated (along the normal) or diffuse", "collimated"},
-          {"depths", "optical depths where fluence and net flux are wanted", ""},
-          {"mus", "cosines to the outward normal where exit radiance is wanted", ""},
-          {"mu_edges", "ascending cosines between which exit flux is wanted", ""}};
+  return with_phase({kAlbedoKey,
+                     {"incidence", "collimated (along the normal) or diffuse", "collimated"},
+                     {"depths", "optical depths where fluence and net flux are wanted", ""},
+                     {"mus", "cosines to the outward normal where exit radiance is wanted", ""},
+                     {"mu_edges", "ascending cosines between which exit flux is wanted", ""}});
 }
 std::vector<ExactKey> slab_keys() {
   std::vector<ExactKey> keys = layer_keys();
@@ -252,14 +271,11 @@ const std::vector<ExactProblem>& exact_problems() {
   static const std::vector<ExactProblem> problems{
       {"slab", "plane-parallel slab, all orders of scattering", slab_keys(), solve_slab_problem},
       {"half-space", "the same without an end", layer_keys(), solve_half_space_problem},
-      {"point-source",
-       "isotropic point source in an infinite medium, all orders of scattering",
-       {{"distances", "from the source, m", "", true},
-        {"sigma_t", "extinction coefficient, 1/m", "1"},
-        kAlbedoKey,
-        kPhaseKey,
-        kMeanCosineKey,
-        {"power", "of the source, W", "1"}},
+      {"point-source", "isotropic point source in an infinite medium, all orders of scattering",
+       with_phase({kAlbedoKey,
+                   {"distances", "from the source, m", "", true},
+                   {"sigma_t", "extinction coefficient, 1/m", "1"},
+                   {"power", "of the source, W", "1"}}),
        solve_point_source_problem},
       {"airlight",
        "point source seen through an infinite medium, single scattering",

@@ -14,6 +14,7 @@ Phase read_phase(TableReader& medium) {
   const auto read_numbers = [&](auto& kind) {
     for (const auto& number : kind.numbers())
       kind.*number.member = table->number(std::string(number.name), number.range);
+    if constexpr (requires { kind.fit(); }) kind.fit();
   };
   std::visit(read_numbers, phase);
   table->finish();

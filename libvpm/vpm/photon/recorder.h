@@ -38,7 +38,7 @@ struct ArrivingPhoton {
 
 /// Which kinds of events are reported to a recorder.
 struct RecordNeeds {
-  bool flights = true, collisions = true, hits = true;
+  bool flights = true, collisions = true, hits = true, escapes = false;
 };
 
 /// Keeps what its owner needs of the photons of one pass. Photons are traced in chunks, and each chunk has its own
@@ -53,7 +53,7 @@ class PhotonRecorder {
   virtual void join(PhotonRecorder& part) = 0;
   /// The number of kept photons that count towards TraceSettings::stored.
   virtual size_t stored() const { return 0; }
-  /// Which of flew(), collided() and hit() are called. It must not change while photons are traced.
+  /// Which of flew(), collided(), hit() and escaped() are called. It must not change while photons are traced.
   virtual RecordNeeds needs() const { return {}; }
   /// From now on also keeps where each photon comes from, if it can.
   virtual void keep_histories() {}

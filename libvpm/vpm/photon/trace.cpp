@@ -39,6 +39,7 @@ class PhotonPath {
       if (needs.flights) of_flights_.push_back(recorder.get());
       if (needs.collisions) of_collisions_.push_back(recorder.get());
       if (needs.hits) of_hits_.push_back(recorder.get());
+      if (needs.escapes) of_escapes_.push_back(recorder.get());
     }
   }
 
@@ -137,7 +138,7 @@ class PhotonPath {
   }
   void escape() {
     deposit(out_.ledger.escaped, Rgbd(at_.state.throughput));
-    for (const auto& recorder : out_.recorders) recorder->escaped(arriving());
+    for (PhotonRecorder* const recorder : of_escapes_) recorder->escaped(arriving());
     alive_ = false;
   }
   void cut() {
@@ -215,8 +216,8 @@ class PhotonPath {
   const PhotonNumbers& numbers_;
   PhotonNumbers::Lead lead_;
   Part& out_;
-  Recorders of_flights_, of_collisions_, of_hits_;  // those of `out_` that record these
-  const DirectionGuide* directions_ = nullptr;      // null: scattering is not guided
+  Recorders of_flights_, of_collisions_, of_hits_, of_escapes_;  // those of `out_` that record these
+  const DirectionGuide* directions_ = nullptr;                   // null: scattering is not guided
   Branch at_;
   std::vector<Branch> waiting_;
   std::vector<Track> tracks_;  // of the last flight, if a recorder wants them

@@ -57,7 +57,7 @@ class FlightRecorder final : public PhotonRecorder {
 
   std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<FlightRecorder>(scene_); }
   void join(PhotonRecorder& part) override { join_lists(flights, static_cast<FlightRecorder&>(part).flights); }
-  RecordNeeds needs() const override { return {.flights = false}; }
+  RecordNeeds needs() const override { return {.flights = false, .escapes = true}; }
   void collided(const ArrivingPhoton& photon) override {
     add(photon, photon.state.ray.origin, static_cast<uint32_t>(photon.state.medium), PhotonEvent::collision);
   }

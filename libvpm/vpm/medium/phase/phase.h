@@ -4,6 +4,7 @@
 // Convention: `cosine` is the dot product of the directions of TRAVEL before and after scattering, so g > 0 is forward.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <variant>
@@ -91,7 +92,101 @@ struct Rayleigh {
   float mean_square_cosine() const { return 0.4f; }
 };
 
-using Phase = std::variant<Isotropic, HenyeyGreenstein, Rayleigh>;
+/// Henyey and Greenstein's function times 1 + alpha cos^2 [Draine2003]: alpha = 0 is that function, alpha = 1 with g =
+/// 0 is Rayleigh's.
+struct Draine {
+  static constexpr std::string_view kName = "draine";
+  static constexpr auto numbers() {
+    return std::array{PhaseNumber<Draine>{"g", &Draine::g, {-1.0, 1.0, true, true}},
+                      PhaseNumber<Draine>{"alpha", &Draine::alpha, {0.0, 1e4, false, false}}};
+  }
+
+  float g = 0.0f;      // in (-1, 1); the mean cosine is another
+  float alpha = 0.0f;  // >= 0
+
+  float value(float cosine) const { return HenyeyGreenstein{g}.value(cosine) * times(cosine); }
+  template <class Before, class After>
+  auto value(const Before& before, const After& after) const {
+    return HenyeyGreenstein{g}.value(before, after) * times(dot(before, after));
+  }
+  Vec3 sample(const Vec3& travel, const Vec2& u) const;
+  float mean_cosine() const { return g * (1.0f + alpha * (3.0f + 2.0f * g * g) / 5.0f) / total(); }
+  float mean_square_cosine() const {
+    const float gg = g * g;
+    return ((1.0f + 2.0f * gg) / 3.0f + alpha * (7.0f + 20.0f * gg + 8.0f * gg * gg) / 35.0f) / total();
+  }
+
+ private:
+  /// The mean of 1 + alpha cos^2 over Henyey and Greenstein's function.
+  float total() const { return 1.0f + alpha * (1.0f + 2.0f * g * g) / 3.0f; }
+  template <class Real>
+  Real times(const Real& cosine) const {
+    return (1.0f / total()) * (1.0f + alpha * cosine * cosine);
+  }
+};
+
+/// Two phase functions, of which the first scatters the share `first`.
+template <class A, class B>
+struct TwoPhases {
+  A a{};
+  B b{};
+  float first = 0.5f;  // in [0, 1]
+
+  float value(float cosine) const { return first * a.value(cosine) + (1.0f - first) * b.value(cosine); }
+  template <class Before, class After>
+  auto value(const Before& before, const After& after) const {
+    return first * a.value(before, after) + (1.0f - first) * b.value(before, after);
+  }
+  /// What is left of the first number, once it has chosen, is one of its own.
+  Vec3 sample(const Vec3& travel, const Vec2& u) const {
+    return u.x < first ? a.sample(travel, {u.x / first, u.y})
+                       : b.sample(travel, {std::min((u.x - first) / (1.0f - first), 0x1.fffffep-1f), u.y});
+  }
+  float mean_cosine() const { return first * a.mean_cosine() + (1.0f - first) * b.mean_cosine(); }
+  float mean_square_cosine() const { return first * a.mean_square_cosine() + (1.0f - first) * b.mean_square_cosine(); }
+};
+
+/// Two lobes of Henyey and Greenstein: as of dust and tissue, forward and back.
+struct TwoLobes : TwoPhases<HenyeyGreenstein, HenyeyGreenstein> {
+  static constexpr std::string_view kName = "two-lobes";
+  static constexpr auto numbers() {
+    return std::array{PhaseNumber<TwoLobes>{"g1", &TwoLobes::g1, {-1.0, 1.0, true, true}},
+                      PhaseNumber<TwoLobes>{"g2", &TwoLobes::g2, {-1.0, 1.0, true, true}},
+                      PhaseNumber<TwoLobes>{"share", &TwoLobes::share, {0.0, 1.0, false, false}}};
+  }
+
+  TwoLobes() { fit(); }
+  /// Of the first lobe's mean cosine and share, and the second's mean cosine.
+  TwoLobes(float of_first, float of_second, float share_of_first) : g1(of_first), g2(of_second), share(share_of_first) {
+    fit();
+  }
+  /// After these have changed.
+  void fit() {
+    a.g = g1;
+    b.g = g2;
+    first = share;
+  }
+
+  float g1 = 0.0f, g2 = 0.0f;  // mean cosines, in (-1, 1)
+  float share = 0.5f;          // of what the first lobe scatters
+};
+
+/// Droplets of water in fog and clouds, in visible light, by one diameter [Jendersie2023]: a narrow lobe of Henyey and
+/// Greenstein, and one of Draine. Bows and glory, of less than a hundredth of the light, are not in it.
+struct Droplets : TwoPhases<HenyeyGreenstein, Draine> {
+  static constexpr std::string_view kName = "droplets";
+  static constexpr auto numbers() {
+    return std::array{PhaseNumber<Droplets>{"diameter", &Droplets::diameter, {5.0, 50.0, false, false}}};
+  }
+
+  explicit Droplets(float of_diameter = 10.0f) : diameter(of_diameter) { fit(); }
+  /// After the diameter has changed.
+  void fit();
+
+  float diameter;  // micrometres, 5 to 50
+};
+
+using Phase = std::variant<Isotropic, HenyeyGreenstein, Rayleigh, Draine, TwoLobes, Droplets>;
 /// Calls visit() with each of these, its numbers being their defaults.
 template <class Visit>
 void for_each_phase(Visit&& visit) {

@@ -20,6 +20,31 @@ PhaseMoments henyey_greenstein_moments(double g) {
 
 PhaseMoments rayleigh_moments() { return {1.0, 0.0, 0.1}; }
 
+PhaseMoments draine_moments(double g, double alpha) {
+  const PhaseMoments powers = henyey_greenstein_moments(g);
+  const auto power = [&](int l) { return l < static_cast<int>(powers.size()) ? powers[static_cast<size_t>(l)] : 0.0; };
+  PhaseMoments moments;
+  for (int l = 0; l < static_cast<int>(powers.size()) + 2; ++l) {
+    // cos^2 P_l, by the recurrence of Legendre polynomials twice.
+    const double n = l, up = (n + 1.0) * (n + 2.0) / ((2.0 * n + 1.0) * (2.0 * n + 3.0)),
+                 same = (n + 1.0) * (n + 1.0) / ((2.0 * n + 1.0) * (2.0 * n + 3.0)) +
+                        n * n / ((2.0 * n + 1.0) * (2.0 * n - 1.0)),
+                 down = l < 2 ? 0.0 : n * (n - 1.0) / ((2.0 * n + 1.0) * (2.0 * n - 1.0));
+    const double below = l < 2 ? 0.0 : power(l - 2);
+    moments.push_back(power(l) + alpha * (up * power(l + 2) + same * power(l) + down * below));
+  }
+  const double total = moments.front();
+  for (double& moment : moments) moment /= total;
+  return moments;
+}
+
+PhaseMoments mixed_moments(const PhaseMoments& a, const PhaseMoments& b, double first) {
+  PhaseMoments moments(std::max(a.size(), b.size()), 0.0);
+  for (size_t l = 0; l < a.size(); ++l) moments[l] += first * a[l];
+  for (size_t l = 0; l < b.size(); ++l) moments[l] += (1.0 - first) * b[l];
+  return moments;
+}
+
 namespace {
 
 /// sum (2l+1) chi_l P_l(x) / (4 pi).

@@ -13,6 +13,10 @@ PhaseMoments isotropic_moments();
 PhaseMoments henyey_greenstein_moments(double g);
 /// 3 (1 + cos^2) / (16 pi).
 PhaseMoments rayleigh_moments();
+/// Henyey and Greenstein's function times 1 + alpha cos^2 [Draine2003], as far as they count; |g| <= 0.9999.
+PhaseMoments draine_moments(double g, double alpha);
+/// Of two phase functions, the first with the share `first`.
+PhaseMoments mixed_moments(const PhaseMoments& a, const PhaseMoments& b, double first);
 
 // Phase functions with forward peaks too narrow for a number of ordinates: what is cut off passes for unscattered
 // light, and comes back where light that scattered once is seen.

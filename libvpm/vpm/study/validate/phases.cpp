@@ -25,6 +25,15 @@ std::vector<TestedPhase> phases() {
   std::vector<TestedPhase> all{{"isotropic", Isotropic{}, 0.0}, {"Rayleigh", Rayleigh{}, 0.0}};
   for (const float g : {-0.9f, -0.4f, 0.0f, 0.3f, 0.8f, 0.99f})
     all.push_back({fmt::format("Henyey-Greenstein, g = {:.2g}", g), HenyeyGreenstein{g}, g});
+  const auto add = [&](std::string name, const auto& phase) {
+    all.push_back({std::move(name), phase, double{phase.mean_cosine()}});
+  };
+  for (const float g : {-0.6f, 0.0f, 0.009f, 0.011f, 0.5f, 0.97f})
+    for (const float alpha : {1.0f, 30.0f})
+      add(fmt::format("Draine, g = {:.2g}, alpha = {:g}", g, alpha), Draine{g, alpha});
+  add("two lobes", TwoLobes(0.8f, -0.4f, 0.7f));
+  for (const float diameter : {5.0f, 10.0f, 50.0f})
+    add(fmt::format("droplets of {:g} um", diameter), Droplets(diameter));
   return all;
 }
 
