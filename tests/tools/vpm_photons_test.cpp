@@ -54,6 +54,20 @@ TEST_F(VpmPhotons, LeaveTheirPaths) {
   EXPECT_NE(read("room.ply").find("element edge "), std::string::npos);
 }
 
+TEST_F(VpmPhotons, FillCells) {
+  const std::vector<std::string> fluence{"fluence", "room.toml", "-o", "a.npy", "--resolution", "8", "--passes", "2"};
+  const std::string said = vpm_succeeds(fluence).out;
+  EXPECT_NE(said.find("a.npy: 8 x 8 x 8 cells of the box (-1, -1, -1) to (1, 1, 1) m, 2 passes\n"), std::string::npos)
+      << said;
+  EXPECT_EQ(read("a.npy").size(), 128u + 8 * 8 * 8 * 4 * 3 * 4);
+  vpm_succeeds({"fluence", "room.toml", "-o", "b.npy", "--box", "0", "0", "0", "1", "0.5", "1", "--resolution", "4"});
+  EXPECT_EQ(read("b.npy").size(), 128u + 4 * 2 * 4 * 4 * 3 * 4);
+  vpm_refuses({"fluence", "room.toml", "-o", "a.vdb"}, {"fields are written as .npy"});
+  vpm_refuses({"fluence", "room.toml", "--box", "0", "0", "0", "1", "0", "1"}, {"--box"});
+  vpm_refuses({"fluence", "room.toml", "--resolution", "4096"}, {"cells take", "ask for fewer"});
+  vpm_refuses({"fluence", "room.toml", "--set", "integrator.importance.importons=100"}, {"photons would be guided"});
+}
+
 TEST_F(VpmPhotons, WrongWishesAreRefused) {
   vpm_refuses({"photons", "room.toml", "-o", "a.obj"}, {"a.obj: photons are written as .ply or .csv"});
   vpm_refuses({"photons", "room.toml", "-o", "nowhere/a.ply"}, {"nowhere"});

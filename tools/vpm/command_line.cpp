@@ -205,6 +205,29 @@ void add_photons(CLI::App& app, PhotonsOptions& options) {
   add_progress(command, options.progress);
 }
 
+void add_fluence(CLI::App& app, FluenceOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("fluence", "Measure fluence and absorbed power inside media, in the cells of a box");
+  command->footer(
+      "Example: vpm fluence scenes/fog_room.toml -o room.npy --resolution 32 writes an array of numpy's: fluence in "
+      "W/m^2, absorbed power in W/m^3, and their standard errors.");
+  add_scene(command, options.scene);
+  command->add_option("-o,--output", options.output,
+                      "File to write (.npy); default: SCENE.fluence.npy in the current folder");
+  command->add_option("--box", options.box, "Corners x0 y0 z0 x1 y1 z1, m; default: the box of the scene")->expected(6);
+  command->add_option("--resolution", options.resolution, "Cells along the longest edge of the box")
+      ->check(whole_number(1, 4096))
+      ->capture_default_str();
+  command->add_option("--passes", options.passes, "Passes to average, of as many photons as the scene says")
+      ->check(whole_number(1, 1'000'000'000))
+      ->capture_default_str();
+  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
+  add_progress(command, options.progress);
+}
+
 void add_compare(CLI::App& app, CompareOptions& options) {
   CLI::App* command =
       app.add_subcommand("compare", "Compare methods, error against cost, on scenes of an experiment file");
@@ -331,6 +354,7 @@ void declare_commands(CLI::App& app, CommandLine& options) {
   add_tonemap(app, options.tonemap);
   add_bake(app, options.bake);
   add_photons(app, options.photons);
+  add_fluence(app, options.fluence);
   add_compare(app, options.compare);
   add_info(app, options.info);
   add_error(app, options.error);

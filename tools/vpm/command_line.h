@@ -18,6 +18,7 @@ struct CommandLine {
   UpgradeOptions upgrade;
   BakeOptions bake;
   PhotonsOptions photons;
+  FluenceOptions fluence;
   CompareOptions compare;
   InfoOptions info;
   ErrorOptions error;

@@ -110,6 +110,20 @@ struct PhotonsOptions {
 /// Writes the photons that the maps of a pass store, or the flights of all its photons.
 int photons_command(const PhotonsOptions& options);
 
+struct FluenceOptions {
+  std::string scene;                   // a scene file
+  std::string output;                  // .npy; empty: SCENE.fluence.npy in the current folder
+  std::vector<std::string> overrides;  // key.path=value
+  std::vector<float> box;              // x0, y0, z0, x1, y1, z1, m; empty: the scene's
+  int resolution = 64;                 // cells along its longest edge
+  int passes = 16;
+  std::optional<uint64_t> seed;
+  int threads = 0;  // 0: all
+  ProgressMode progress = ProgressMode::automatic;
+};
+/// Writes the fluence and the absorbed power in the cells of a box.
+int fluence_command(const FluenceOptions& options);
+
 struct CompareOptions {
   std::string experiment;              // an experiment file
   std::string output;                  // folder; made where it is missing

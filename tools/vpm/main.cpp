@@ -60,6 +60,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("tonemap")) return tonemap_command(options.tonemap);
   if (app.got_subcommand("bake")) return bake_command(options.bake);
   if (app.got_subcommand("photons")) return photons_command(options.photons);
+  if (app.got_subcommand("fluence")) return fluence_command(options.fluence);
   if (app.got_subcommand("compare")) return compare_command(options.compare);
   if (app.got_subcommand("info")) return info_command(options.info);
   if (app.got_subcommand("error")) return error_command(options.error);

@@ -62,7 +62,10 @@ std::shared_ptr<const PhotonQueries::Sorted<NearestMap>> PhotonQueries::nearest_
 std::vector<uint32_t> PhotonQueries::count_within(std::span<const Vec3> points, float radius) const {
   const auto sorted = map_of(radius);
   std::vector<uint32_t> counts(points.size());
-  for_points(points.size(), [&](size_t i) { counts[i] = sorted->map.count_near(points[i], radius); });
+  for_points(points.size(), [&](size_t i) {
+    sorted->map.visit_near(points[i], radius,
+                           [&](const NearPhotons& near) { counts[i] += static_cast<uint32_t>(near.size()); });
+  });
   return counts;
 }
 

@@ -1,5 +1,6 @@
 // The photons of a pass, and photon maps of any photons: arrays that share the library's memory.
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "vpm/base/error.h"
 #include "vpm/estimate/photon_queries.h"
 #include "vpm/integrators/photon_map/stored_photons.h"
+#include "vpm/job/fluence.h"
 #include "vpm/job/photon_files.h"
 
 namespace vpm::python {
@@ -110,17 +112,49 @@ std::shared_ptr<PhotonFlights> flights_of(const std::shared_ptr<SceneJob>& scene
       scene, seed, [&](const Scene& of, const RenderSettings& settings) { return photon_flights(of, settings, pass); });
 }
 
-py::dict energy_of(const StoredPhotons& photons) {
+py::dict energy_of(const Ledger& ledger) {
   const auto of_photon = [&](const Rgbd& power) {
-    const Rgbd each = power / static_cast<double>(std::max<uint64_t>(1, photons.emitted));
+    const Rgbd each = power / static_cast<double>(std::max<uint64_t>(1, ledger.emitted_count));
     return py::make_tuple(each.r, each.g, each.b);
   };
   py::dict energy;
-  energy["emitted"] = of_photon(photons.ledger.emitted);
-  energy["absorbed_in_media"] = of_photon(photons.ledger.absorbed_in_media);
-  energy["absorbed_on_surfaces"] = of_photon(photons.ledger.absorbed_on_surfaces);
-  energy["escaped"] = of_photon(photons.ledger.escaped);
+  energy["emitted"] = of_photon(ledger.emitted);
+  energy["absorbed_in_media"] = of_photon(ledger.absorbed_in_media);
+  energy["absorbed_on_surfaces"] = of_photon(ledger.absorbed_on_surfaces);
+  energy["escaped"] = of_photon(ledger.escaped);
   return energy;
+}
+
+using Corners = std::array<float, 6>;  // of a box, m
+using Count = std::array<int, 3>;
+
+/// The cells of that box, or of the scene's; cubes of so many along its longest edge, or as many as are asked for.
+CellLattice lattice_of(const Scene& scene, const std::optional<Corners>& box, int resolution,
+                       const std::optional<Count>& count) {
+  Scene framed;
+  framed.bounds = scene.bounds;
+  if (box) framed.bounds = {{(*box)[0], (*box)[1], (*box)[2]}, {(*box)[3], (*box)[4], (*box)[5]}};
+  CellLattice lattice = lattice_of_scene(framed, resolution);
+  if (count) lattice.count = {(*count)[0], (*count)[1], (*count)[2]};
+  return lattice;
+}
+
+std::shared_ptr<FluenceField> fluence_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
+                                         const std::optional<Corners>& box, int resolution,
+                                         const std::optional<Count>& count, int passes) {
+  return collect<FluenceField>(scene, seed, [&](const Scene& of, const RenderSettings& settings) {
+    return measure_fluence(of, settings, lattice_of(of, box, resolution, count), passes);
+  });
+}
+
+/// An array (nx, ny, nz, 3) of one of a field's quantities.
+py::array field_array(const py::object& self, std::vector<Rgb> FluenceField::*values) {
+  const auto& field = self.cast<const FluenceField&>();
+  const Vec3i& count = field.lattice.count;
+  py::array_t<float> array({count.x, count.y, count.z, 3}, reinterpret_cast<const float*>((field.*values).data()),
+                           self);
+  array.attr("flags").attr("writeable") = false;
+  return array;
 }
 
 /// The rows of an array (n, 3), read where they are.
@@ -188,7 +222,7 @@ void bind_photons(py::module_& module) {
       .def_readonly("maps", &StoredPhotons::maps)
       .def_readonly("places", &StoredPhotons::places)
       .def_readonly("emitted", &StoredPhotons::emitted)
-      .def("energy", &energy_of)
+      .def("energy", [](const StoredPhotons& photons) { return energy_of(photons.ledger); })
       .def("write", [](const StoredPhotons& photons, const std::string& path) {
         const py::gil_scoped_release others_run;
         write_photons(photons, path);
@@ -210,6 +244,24 @@ void bind_photons(py::module_& module) {
       .def("within", &within)
       .def("nearest", &nearest)
       .def("estimate", &estimate);
+  py::class_<FluenceField, std::shared_ptr<FluenceField>>(module, "FluenceField")
+      .def("fluence", [](const py::object& self) { return field_array(self, &FluenceField::fluence); })
+      .def("fluence_error", [](const py::object& self) { return field_array(self, &FluenceField::fluence_error); })
+      .def("absorbed", [](const py::object& self) { return field_array(self, &FluenceField::absorbed); })
+      .def("absorbed_error", [](const py::object& self) { return field_array(self, &FluenceField::absorbed_error); })
+      .def_property_readonly("box",
+                             [](const FluenceField& field) {
+                               const auto& [lo, hi] = field.lattice.box;
+                               return py::make_tuple(py::make_tuple(lo.x, lo.y, lo.z),
+                                                     py::make_tuple(hi.x, hi.y, hi.z));
+                             })
+      .def_readonly("passes", &FluenceField::passes)
+      .def("energy", [](const FluenceField& field) { return energy_of(field.ledger); })
+      .def("write", [](const FluenceField& field, const std::string& path) {
+        const py::gil_scoped_release others_run;
+        write_field(field, path);
+      });
+  module.def("fluence", &fluence_of);
   module.def("stored_photons", &photons_of);
   module.def("photon_flights", &flights_of);
   module.def("photon_events", &names_of_photon_events);

@@ -104,6 +104,60 @@ def flights(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overri
     return Flights(_vpm.photon_flights(*_asked(scene, overrides, seed, number)))
 
 
+class Field:
+    """Fluence and absorbed power inside the media of a scene, in the cells of a box: means over passes and cells.
+
+    fluence (W/m^2; 0 where there is no medium), absorbed (W/m^3), and their standard errors fluence_error and
+    absorbed_error (nan of a single pass): read-only arrays (nx, ny, nz, 3). box: the corners, m. passes: how many.
+    energy: where the power of all photons went, W, as of `Photons`.
+    """
+
+    def __init__(self, field: _vpm.FluenceField):
+        self._field = field
+        self.fluence, self.fluence_error = field.fluence(), field.fluence_error()
+        self.absorbed, self.absorbed_error = field.absorbed(), field.absorbed_error()
+        self.box, self.passes, self.energy = field.box, field.passes, field.energy()
+
+    @property
+    def cell_volume(self) -> float:
+        """m^3"""
+        return float(np.prod(np.subtract(self.box[1], self.box[0]) / self.fluence.shape[:3]))
+
+    def centers(self) -> list[NDArray[np.float64]]:
+        """Where the cells' centers are along x, y and z, m."""
+        return [lo + (np.arange(n) + 0.5) * (hi - lo) / n for lo, hi, n in zip(*self.box, self.fluence.shape)]
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes the .npy file that `vpm fluence` writes: an array (nx, ny, nz, 4, 3)."""
+        self._field.write(os.fspath(path))
+
+    def __repr__(self) -> str:
+        return f"Field({' x '.join(map(str, self.fluence.shape[:3]))} cells, {self.passes} passes)"
+
+
+def fluence(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
+            box: ArrayLike | None = None, cells: int | tuple[int, int, int] = 64, passes: int = 16,
+            seed: int | None = None) -> Field:
+    """Fluence and absorbed power inside media, whatever the integrator: by the lengths of photons' flights, and by
+    their collisions. The same bits on any number of threads.
+
+    box: its corners ((x0, y0, z0), (x1, y1, z1)), m; that of the scene unless given. cells: how many along its longest
+    edge, in about cubes; or along each axis. passes: how many, each of as many photons as the scene says.
+    """
+    job, seed, _ = _asked(scene, overrides, seed, 0)
+    corners = None
+    if box is not None:
+        found = np.asarray(box, np.float64)
+        if found.shape != (2, 3) or not np.isfinite(found).all() or not (found[0] < found[1]).all():
+            raise InputError(f"box: {box} is not ((x0, y0, z0), (x1, y1, z1)) with the first corner below the second")
+        corners = [float(x) for x in found.ravel()]
+    count = None if np.ndim(cells) == 0 else tuple(_whole(n, "cells", 1, 100_000) for n in cells)
+    if count is not None and len(count) != 3:
+        raise InputError(f"cells: {cells} is neither a number nor one for each axis")
+    resolution = _whole(cells, "cells", 1, 4096) if count is None else 1
+    return Field(_vpm.fluence(job, seed, corners, resolution, count, _whole(passes, "passes", 1, 1_000_000_000)))
+
+
 class PhotonMap:
     """A photon map of any photons, for questions about many points at once.
 

@@ -2,7 +2,6 @@
 #include "vpm/photon/map/radius_map.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -76,15 +75,6 @@ RadiusMap::RadiusMap(const std::vector<Photon>& photons, float radius, float sca
   std::vector<uint32_t> order = sort_by_list(lists);
   photons_ = PhotonTable(photons, order, scale);
   if (numbers) *numbers = std::move(order);
-}
-
-uint32_t RadiusMap::count_near(const Vec3& point, float radius) const {
-  uint32_t near = 0;
-  const auto add = [&, limit = radius * radius](const float* distances2, uint32_t number, uint32_t) {
-    near += static_cast<uint32_t>(std::popcount(bits_of(lanes_of(distances2) < limit) & ((1u << number) - 1)));
-  };
-  scan_near(point, radius, [&](size_t from, size_t to) { photons_.for_each_block(from, to, point, add); });
-  return near;
 }
 
 std::vector<uint32_t> RadiusMap::sort_by_list(const std::vector<uint32_t>& lists) {

@@ -59,9 +59,6 @@ class RadiusMap {
   template <class Visit>
   uint32_t visit_near(const Vec3& point, float radius, Visit&& visit) const;
 
-  /// How many there are.
-  uint32_t count_near(const Vec3& point, float radius) const;
-
   const PhotonTable& photons() const { return photons_; }
   size_t size() const { return photons_.size(); }
   /// The box around the photons.
@@ -77,9 +74,6 @@ class RadiusMap {
   /// Fills `first_` from the photons' lists; returns the photons' numbers in the order of their lists.
   std::vector<uint32_t> sort_by_list(const std::vector<uint32_t>& lists);
 
-  /// Calls scan(first photon, one past the last) for the photons that may be in the ball.
-  template <class Scan>
-  void scan_near(const Vec3& point, float radius, Scan&& scan) const;
   /// Calls scan(first list, one past the last) for the rows of cells that the ball reaches.
   template <class Scan>
   void scan_rows(const Vec3& point, float radius, Scan&& scan) const;
@@ -125,28 +119,23 @@ void RadiusMap::scan_rows(const Vec3& point, float radius, Scan&& scan) const {
 
 template <class Visit>
 uint32_t RadiusMap::visit_near(const Vec3& point, float radius, Visit&& visit) const {
+  for (int a = 0; a < 3; ++a)
+    if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return 0;
   uint32_t visited = 0;
   NearPhotons found;
   const auto add = [&](const float* distances2, uint32_t number, uint32_t first) {
     found.add(distances2, number, first, radius * radius, visit);
   };
-  scan_near(point, radius, [&](size_t from, size_t to) {
-    photons_.for_each_block(from, to, point, add);
-    count(visited, to - from);
-  });
+  const auto scan = [&](size_t from, size_t to) {
+    photons_.for_each_block(first_[from], first_[to], point, add);
+    count(visited, first_[to] - first_[from]);
+  };
+  if (radius <= widest_)
+    scan_rows(point, radius, scan);
+  else
+    scan(0, lists_.number());
   found.take(visit);
   return visited;
-}
-
-template <class Scan>
-void RadiusMap::scan_near(const Vec3& point, float radius, Scan&& scan) const {
-  for (int a = 0; a < 3; ++a)
-    if (!(point[a] + radius >= bounds_.lo[a] && point[a] - radius <= bounds_.hi[a])) return;
-  const auto of_lists = [&](size_t from, size_t to) { scan(first_[from], first_[to]); };
-  if (radius <= widest_)
-    scan_rows(point, radius, of_lists);
-  else
-    of_lists(0, lists_.number());
 }
 
 }  // namespace vpm

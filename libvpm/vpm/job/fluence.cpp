@@ -1,0 +1,132 @@
+// Passes of photons into cells; their moments; a file.
+#include "vpm/job/fluence.h"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "vpm/base/atomic_file.h"
+#include "vpm/base/error.h"
+#include "vpm/base/parallel.h"
+#include "vpm/base/settings/setting_error.h"
+#include "vpm/job/forecast.h"
+#include "vpm/photon/field_recorder.h"
+#include "vpm/photon/trace.h"
+
+namespace vpm {
+namespace {
+
+constexpr size_t kCellChunk = 1 << 14;
+constexpr size_t kBytesOfCell = 12 * sizeof(double) + 6 * sizeof(int64_t) + 4 * sizeof(Rgb);
+
+/// Of one quantity over passes, by cell.
+struct FieldMoments {
+  std::vector<Rgbd> mean, squares;  // squares: of the differences from the mean
+
+  explicit FieldMoments(size_t cells) : mean(cells, Rgbd(0.0)), squares(cells, Rgbd(0.0)) {}
+  /// Of pass number `count`, from 1.
+  void add(const CellSums& sums, double scale, int count) {
+    parallel_for_chunks(mean.size(), kCellChunk, [&](size_t begin, size_t end, size_t) {
+      for (size_t cell = begin; cell < end; ++cell) {
+        const Rgbd value = scale * sums[cell], step = value - mean[cell];
+        mean[cell] += step / static_cast<double>(count);
+        squares[cell] += step * (value - mean[cell]);
+      }
+    });
+  }
+  std::vector<Rgb> errors(int count) const {
+    std::vector<Rgb> errors(mean.size(), Rgb(std::numeric_limits<float>::quiet_NaN()));
+    const double number = count;
+    for (size_t cell = 0; count > 1 && cell < errors.size(); ++cell)
+      errors[cell] = Rgb(glm::sqrt(squares[cell] / (number * (number - 1.0))));
+    return errors;
+  }
+};
+
+void check(const RenderSettings& settings, const CellLattice& lattice) {
+  refuse_if(!strategy_info(settings.distance.strategy).analog, "integrator.distance.type",
+            "flights by '" + settings.distance.strategy + "' do not end as the transmittance says",
+            listed("these do", strategies_that(&StrategyInfo::analog)));
+  refuse_if(settings.importance.importons > 0, "integrator.importance.importons",
+            "fields are measured everywhere, and photons would be guided to what the camera sees",
+            "leave out 'importons'");
+  refuse_if(settings.photons.emitted == 0, "integrator.photons.emitted", "passes would have no end",
+            "say how many photons a pass emits");
+  const double bytes = static_cast<double>(lattice.size()) * kBytesOfCell, most = 0.5 * physical_memory();
+  if (bytes > most)
+    throw InputError(
+        fmt::format("{} x {} x {} cells take {:.3g} GB, and half of this machine's memory is {:.3g} GB: "
+                    "ask for fewer",
+                    lattice.count.x, lattice.count.y, lattice.count.z, 1e-9 * bytes, 1e-9 * most));
+}
+
+double mean_power(const Scene& scene) {
+  double power = 0.0;
+  for (const Light& light : scene.lights) power += double{mean_channel(light_power(light, scene.bounds))};
+  if (!(power > 0.0)) throw InputError("no light emits anything: fluence is 0 everywhere");
+  return power;
+}
+
+}  // namespace
+
+CellLattice lattice_of_scene(const Scene& scene, int resolution) {
+  const Vec3d extent(scene.bounds.extent());
+  const double edge = std::max({extent.x, extent.y, extent.z}) / resolution;
+  return {scene.bounds, glm::max(Vec3i(1), Vec3i(glm::round(extent / edge)))};
+}
+
+FluenceField measure_fluence(const Scene& scene, const RenderSettings& settings, const CellLattice& lattice, int passes,
+                             const PassProgress& progress) {
+  check(settings, lattice);
+  const auto emitted = static_cast<double>(settings.photons.emitted);
+  FieldRecorder recorder(scene, lattice, mean_power(scene));
+  FieldMoments fluence(lattice.size()), absorbed(lattice.size());
+  FluenceField field{lattice, passes, {}, {}, {}, {}, {}};
+  Progress bar("photons", settings.photons.emitted * static_cast<uint64_t>(passes), progress.stages);
+  for (int pass = 0; pass < passes; ++pass) {
+    TraceSettings trace;
+    trace.seed = settings.seed;
+    trace.pass = static_cast<uint64_t>(pass);
+    trace.emitted = settings.photons.emitted;
+    trace.max_events = settings.max_events;
+    trace.sequence = settings.photons.sequence;
+    const auto strategy = make_distance_strategy(settings.distance, {.pass = trace.pass, .density = false});
+    recorder.clear();
+    field.ledger.merge(trace_photons(scene, *strategy, trace, {&recorder}, bar));
+    const double scale = 1.0 / (emitted * lattice.volume());
+    fluence.add(recorder.lengths(), scale, pass + 1);
+    absorbed.add(recorder.absorbed(), scale, pass + 1);
+  }
+  bar.finish();
+  field.fluence.assign(fluence.mean.begin(), fluence.mean.end());
+  field.absorbed.assign(absorbed.mean.begin(), absorbed.mean.end());
+  field.fluence_error = fluence.errors(passes);
+  field.absorbed_error = absorbed.errors(passes);
+  return field;
+}
+
+void check_field_file(const std::filesystem::path& path) {
+  if (path.extension() != ".npy") throw InputError(fmt::format("{}: fields are written as .npy", path.string()));
+  check_writable(path, 0);
+}
+
+void write_field(const FluenceField& field, const std::filesystem::path& path) {
+  check_field_file(path);
+  const Vec3i& count = field.lattice.count;
+  std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}, 4, 3), }}", count.x,
+                                   count.y, count.z);
+  constexpr size_t kBefore = 10, kAligned = 64;  // bytes: of magic number, version and length; the format's own
+  header.append(kAligned - 1 - (kBefore + header.size()) % kAligned, ' ');
+  header += '\n';
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(header.size() & 0xff);
+  bytes += static_cast<char>(header.size() >> 8);
+  bytes += header;
+  for (size_t cell = 0; cell < field.lattice.size(); ++cell)
+    for (const auto* values : {&field.fluence, &field.fluence_error, &field.absorbed, &field.absorbed_error})
+      bytes.append(reinterpret_cast<const char*>(&(*values)[cell]), sizeof(Rgb));
+  write_text(path, bytes);
+}
+
+}  // namespace vpm
