@@ -1,5 +1,6 @@
 // Phase functions of any anisotropy: normalised, reciprocal, and the same by cosine and by directions.
 #include "support/properties.h"
+#include "vpm/base/error.h"
 #include "vpm/base/warp.h"
 #include "vpm/medium/phase/phase.h"
 
@@ -86,6 +87,52 @@ RC_GTEST_PROP(PhaseProperty, SamplesOfDraineInvertTheCumulativeDistribution, ())
              away * x / kSteps;
   }
   RC_ASSERT(std::abs(share - u.x) < 2e-4);
+}
+
+PhaseTable table_of_henyey_greenstein(double g, double step) {
+  std::vector<double> degrees, values;
+  for (double angle = 0.0; angle < 180.0 - 0.5 * step; angle += step) degrees.push_back(angle);
+  degrees.push_back(180.0);
+  for (const double angle : degrees)
+    values.push_back(7.0 / std::pow(1.0 + g * g - 2.0 * g * std::cos(angle * kPiD / 180.0), 1.5));
+  return {degrees, values};
+}
+
+/// Linear in between, a table of 0.05 degrees is within 1e-4 of the function.
+TEST(Tabulated, IsTheFunctionThatTheTableIsOf) {
+  const HenyeyGreenstein phase{0.75f};
+  const Tabulated table{std::make_shared<const PhaseTable>(table_of_henyey_greenstein(0.75, 0.05))};
+  EXPECT_NEAR(table.table->total(), 7.0 * 4.0 * kPiD / (1.0 - 0.75 * 0.75), 1e-2);
+  for (int i = 0; i <= 1800; ++i) {
+    const double angle = i * kPiD / 1800.0;
+    const Vec3 before(0, 0, 1), after(Vec3d(std::sin(angle), 0.0, std::cos(angle)));
+    ASSERT_NEAR(table.value(before, after) / phase.value(before, after), 1.0f, 1e-4f) << angle;
+  }
+  EXPECT_NEAR(table.mean_cosine(), 0.75f, 1e-5f);
+  EXPECT_NEAR(table.mean_square_cosine(), phase.mean_square_cosine(), 1e-5f);
+  for (const float u : {0.0f, 1e-6f, 0.1f, 0.5f, 0.99f, 0.999999f}) {
+    const Vec3 d = table.sample(Vec3(0, 0, 1), {u, 0.3f});
+    const double away = 1.0 - double{d.z};
+    double share = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+      const double x = (i + 0.5) / 20'000, at = away * x * x;
+      share += 4.0 * kPiD * away * x / 20'000 * table.value(static_cast<float>(1.0 - at));
+    }
+    EXPECT_NEAR(share, u, 1e-3f);
+  }
+}
+
+TEST(Tabulated, OtherTablesAreRefused) {
+  const auto refused = [](std::vector<double> degrees, std::vector<double> values) {
+    EXPECT_THROW(PhaseTable(degrees, values), InputError);
+  };
+  refused({0.0, 90.0}, {1.0, 1.0});
+  refused({1.0, 180.0}, {1.0, 1.0});
+  refused({0.0, 90.0, 90.0, 180.0}, {1.0, 1.0, 1.0, 1.0});
+  refused({0.0, 180.0}, {1.0, -1.0});
+  refused({0.0, 180.0}, {0.0, 0.0});
+  refused({0.0, 180.0}, {1.0});
+  refused({}, {});
 }
 
 /// Alpha = 0 is Henyey and Greenstein's function, and alpha = 1 with g = 0 Rayleigh's.

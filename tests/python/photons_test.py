@@ -319,9 +319,15 @@ def test_the_lines_of_the_page_print_what_it_says(monkeypatch):
 @pytest.mark.parametrize("phase, keys", [
     ({"type": "draine", "g": 0.5, "alpha": 20.0}, {"phase": "draine", "g": 0.5, "alpha": 20}),
     ({"type": "two-lobes", "g1": 0.9, "g2": -0.4, "share": 0.8}, {"phase": "two-lobes", "g": 0.9, "g2": -0.4, "share": 0.8}),
-    ({"type": "droplets", "diameter": 10.0}, {"phase": "droplets", "diameter": 10})])
-def test_slabs_absorb_what_transport_theory_says(phase, keys):
+    ({"type": "droplets", "diameter": 10.0}, {"phase": "droplets", "diameter": 10}),
+    ({"type": "table", "path": "hg.csv"}, {"phase": "hg", "g": 0.75})])
+def test_slabs_absorb_what_transport_theory_says(phase, keys, tmp_path):
     """By the ledger of 100,000 photons: false-alarm rate 6e-7."""
+    if "path" in phase:
+        angles = np.linspace(0, 180, 1801)
+        np.savetxt(tmp_path / "hg.csv", np.c_[angles, (1 + 0.75**2 - 1.5 * np.cos(np.radians(angles)))**-1.5],
+                   delimiter=",", header="angle,value", comments="")
+        phase = {**phase, "path": tmp_path / "hg.csv"}
     slab = {"camera": {"position": [0, 5, 0], "target": [0, 0, 0.1]}, "film": {"width": 1, "height": 1},
             "media": {"mist": {"type": "homogeneous", "sigma_t": 2, "albedo": 0.9, "phase": phase}},
             "shapes": [{"type": "box", "min": [-500, 0, -500], "max": [500, 1, 500], "inside": "mist",

@@ -1,9 +1,19 @@
 // The section [media.*]: coefficients, phase functions, grids.
+#include "vpm/input/phase_file.h"
 #include "vpm/input/sections.h"
 #include "vpm/medium/measured.h"
 
 namespace vpm {
 namespace {
+
+std::shared_ptr<const PhaseTable> read_phase_table(TableReader& table) {
+  const std::string path = table.path("path");
+  try {
+    return load_phase_table(path);
+  } catch (const InputError& error) {
+    table.fail("path", error.what());
+  }
+}
 
 Phase read_phase(TableReader& medium) {
   std::optional<TableReader> table = medium.table("phase", "'phase' of " + medium.title());
@@ -15,6 +25,7 @@ Phase read_phase(TableReader& medium) {
     for (const auto& number : kind.numbers())
       kind.*number.member = table->number(std::string(number.name), number.range);
     if constexpr (requires { kind.fit(); }) kind.fit();
+    if constexpr (requires { kind.table; }) kind.table = read_phase_table(*table);
   };
   std::visit(read_numbers, phase);
   table->finish();

@@ -39,6 +39,8 @@ std::string problem_of(const Medium& medium) {
     if (!(medium.emission->scale >= 0.0 && std::isfinite(medium.emission->scale + medium.emission->offset)))
       return "the temperature of its emission must have a scale of at least 0, and a finite offset";
   }
+  if (const auto* tabulated = std::get_if<Tabulated>(&medium.phase); tabulated && !tabulated->table)
+    return "its phase function has no table";
   return std::visit([](const auto& function) { return problem_of_numbers(function); }, medium.phase);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "vpm/base/rng.h"
 #include "vpm/base/warp.h"
@@ -183,9 +184,15 @@ std::string doubt_of_temperatures(const Medium& medium) {
 
 std::vector<std::string> notes_of(const Scene& scene) {
   std::vector<std::string> notes;
-  for (const Medium& medium : scene.media)
+  for (const Medium& medium : scene.media) {
     if (const std::string doubt = doubt_of_temperatures(medium); !doubt.empty())
       notes.push_back("medium '" + medium.name + "': " + doubt);
+    const auto* tabulated = std::get_if<Tabulated>(&medium.phase);
+    if (tabulated && std::abs(tabulated->table->total() - 1.0) > 1e-3)
+      notes.push_back(fmt::format(
+          "medium '{}': the table of its phase function integrates to {:.6g} over the sphere, and is divided by that",
+          medium.name, tabulated->table->total()));
+  }
   note_unresolved_place(scene.bounds, notes);
   note_unresolved_media(scene, notes);
   return notes;

@@ -88,6 +88,10 @@ Vec3 Draine::sample(const Vec3& travel, const Vec2& u) const {
   return direction_about(g < 0.0f ? -travel : travel, static_cast<float>(std::clamp(away, 0.0, 2.0)), 2.0f * kPi * u.y);
 }
 
+Vec3 Tabulated::sample(const Vec3& travel, const Vec2& u) const {
+  return direction_about(travel, static_cast<float>(table->away_within(double{u.x})), 2.0f * kPi * u.y);
+}
+
 void Droplets::fit() {
   // The fits of [Jendersie2023] to Mie's solution for water, averaged over visible light.
   const double d = diameter;

@@ -6,11 +6,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <memory>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 
 #include "vpm/base/settings/range.h"
 #include "vpm/base/vec.h"
+#include "vpm/medium/phase/phase_table.h"
 
 namespace vpm {
 
@@ -186,7 +190,34 @@ struct Droplets : TwoPhases<HenyeyGreenstein, Draine> {
   float diameter;  // micrometres, 5 to 50
 };
 
-using Phase = std::variant<Isotropic, HenyeyGreenstein, Rayleigh, Draine, TwoLobes, Droplets>;
+/// What a table says.
+struct Tabulated {
+  static constexpr std::string_view kName = "table";
+  static constexpr std::array<PhaseNumber<Tabulated>, 0> numbers() { return {}; }
+
+  std::shared_ptr<const PhaseTable> table{};  // not null where it is used
+
+  float value(float cosine) const { return table->value(std::sqrt(std::max(0.0f, 0.5f - 0.5f * cosine))); }
+  template <class Before, class After>
+  auto value(const Before& before, const After& after) const {
+    using std::sqrt;
+    const auto apart = after - before;
+    const auto s = sqrt(0.25f * dot(apart, apart));
+    using Real = std::remove_const_t<decltype(s)>;
+    if constexpr (std::is_same_v<Real, float>) {
+      return table->value(s);
+    } else {
+      Real values;
+      for (size_t lane = 0; lane < Real::kWidth * Real::kRegisters; ++lane) values.set(lane, table->value(s[lane]));
+      return values;
+    }
+  }
+  Vec3 sample(const Vec3& travel, const Vec2& u) const;
+  float mean_cosine() const { return static_cast<float>(table->mean_cosine()); }
+  float mean_square_cosine() const { return static_cast<float>(table->mean_square_cosine()); }
+};
+
+using Phase = std::variant<Isotropic, HenyeyGreenstein, Rayleigh, Draine, TwoLobes, Droplets, Tabulated>;
 /// Calls visit() with each of these, its numbers being their defaults.
 template <class Visit>
 void for_each_phase(Visit&& visit) {

@@ -32,6 +32,12 @@ std::vector<TestedPhase> phases() {
     for (const float alpha : {1.0f, 30.0f})
       add(fmt::format("Draine, g = {:.2g}, alpha = {:g}", g, alpha), Draine{g, alpha});
   add("two lobes", TwoLobes(0.8f, -0.4f, 0.7f));
+  std::vector<double> degrees, values;  // of a table that is not smooth, nor normalised
+  for (int i = 0; i <= 180; i += 5) {
+    degrees.push_back(i);
+    values.push_back(i < 10 ? 400.0 : i == 140 ? 30.0 : 2.0);
+  }
+  add("table", Tabulated{std::make_shared<const PhaseTable>(degrees, values)});
   for (const float diameter : {5.0f, 10.0f, 50.0f})
     add(fmt::format("droplets of {:g} um", diameter), Droplets(diameter));
   return all;
