@@ -208,7 +208,7 @@ def test_files_hold_what_arrays_hold(tmp_path):
     assert np.array_equal(rows["nz"], found.array["direction"][:, 2])
     assert np.array_equal(rows["number"], found.array["number"]) and np.array_equal(rows["map"], found.array["map"])
     assert np.array_equal(rows["power_b"], found.array["power"][:, 2]) and (rows["blue"] == 255).all()
-    with pytest.raises(vpm.InputError, match="written as .ply or .csv"):
+    with pytest.raises(vpm.InputError, match="written as .ply, .csv or .npz"):
         found.write(tmp_path / "a.obj")
 
 
@@ -271,7 +271,7 @@ def test_a_map_gathers_what_a_render_gathers():
 
 
 @pytest.mark.parametrize("call, wrong", [
-    (lambda m: m.within([[0, 0, 0]], 0), "radius: 0 is not a number of metres above 0"),
+    (lambda m: m.within([[0, 0, 0]], 0), "radius: 0 is not a number of metres from"),
     (lambda m: m.within([[0, 0]], 1), r"points are an array \(n, 3\)"),
     (lambda m: m.nearest([[0, 0, 0]], 4), "k: there are only 3 photons, not 4"),
     (lambda m: m.estimate([[0, 0, np.nan]], 1), "points must be finite; row 0 is not"),

@@ -84,6 +84,8 @@ TEST_F(VpmExact, RefusesWhatItCannotSolve) {
   vpm_refuses({"exact", "cube"}, {"no problem cube", "slab", "half-space", "sphere"});
   vpm_refuses({"exact", "slab"}, {"tau", "missing", "albedo"});
   vpm_refuses({"exact", "slab", "tau=1", "thickness=2"}, {"no key thickness", "tau", "mu_edges"});
+  vpm_refuses({"exact", "slab", "tau=1", "g=-0.999"}, {"peak is too narrow"});
+  vpm_refuses({"exact", "slab", "tau=1", "phase=droplets", "g=0.5"}, {"g"});
   vpm_refuses({"exact", "slab", "tau"}, {"key=value"});
   vpm_refuses({"exact", "slab", "tau="}, {"key=value"});
   vpm_refuses({"exact", "slab", "tau=1", "tau=2"}, {"tau", "twice"});

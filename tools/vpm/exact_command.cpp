@@ -83,8 +83,7 @@ int exact_command(const ExactOptions& options) {
   }
   const ExactProblem& problem = find_exact_problem(options.problem);
   ExactArguments arguments(problem.name, problem.keys, options.arguments);
-  const std::vector<ExactQuantity> quantities = problem.solve(arguments);
-  arguments.expect_all_read();
+  const std::vector<ExactQuantity> quantities = solve(problem, arguments);
   if (options.json) {
     print_json(problem.name, arguments, quantities);
     return 0;

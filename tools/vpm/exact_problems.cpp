@@ -326,4 +326,15 @@ const ExactProblem& find_exact_problem(const std::string& name) {
   throw InputError(fmt::format("exact: there is no problem {}; problems: {}", name, names));
 }
 
+std::vector<ExactQuantity> solve(const ExactProblem& problem, ExactArguments& arguments) {
+  std::vector<ExactQuantity> quantities = problem.solve(arguments);
+  arguments.expect_all_read();
+  for (const ExactQuantity& quantity : quantities)
+    for (const std::optional<double>& value : quantity.values)
+      if (value && !std::isfinite(*value))
+        throw InputError(fmt::format("exact {}: the phase function's peak is too narrow to be solved: g nearer to 0 is",
+                                     problem.name));
+  return quantities;
+}
+
 }  // namespace vpm::tools

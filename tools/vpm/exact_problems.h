@@ -67,5 +67,7 @@ const std::vector<ExactProblem>& exact_problems();
 std::string text_of(const ExactProblem& problem);
 /// The problem of that name. Throws InputError where there is none.
 const ExactProblem& find_exact_problem(const std::string& name);
+/// Solves it, and refuses keys that meant nothing, and what has no finite answer: InputError.
+std::vector<ExactQuantity> solve(const ExactProblem& problem, ExactArguments& arguments);
 
 }  // namespace vpm::tools

@@ -1,5 +1,6 @@
 // vpm fluence: scene file in, fields inside its media out.
 #include <fmt/format.h>
+#include <algorithm>
 #include <cstdio>
 
 #include "commands.h"
@@ -40,6 +41,9 @@ int fluence_command(const FluenceOptions& options) {
   const FluenceField field = measure_fluence(job.scene, job.settings, lattice_of(options, job.scene), options.passes,
                                              {progress_enabled(options.progress)});
   write_field(field, output);
+  warn_of_cut_photons(field.ledger);
+  if (std::all_of(field.fluence.begin(), field.fluence.end(), [](const Rgb& fluence) { return is_black(fluence); }))
+    print_warnings({"no photon flew through a medium in the box"});
   const auto& [lo, hi] = field.lattice.box;
   const double photons = static_cast<double>(field.ledger.emitted_count), volume = field.lattice.volume();
   Rgbd absorbed(0.0);

@@ -46,11 +46,13 @@ int photons_command(const PhotonsOptions& options) {
   if (options.paths) {
     const PhotonFlights flights = photon_flights(job.scene, job.settings, options.pass, progress);
     write_flights(flights, output);
+    warn_of_cut_photons(flights.ledger);
     fmt::print("{}: {} flights of {} photons\n", output.string(), flights.flights.size(), flights.emitted);
     return 0;
   }
   const StoredPhotons stored = stored_photons(job.scene, job.settings, options.pass, progress);
   write_photons(stored, output);
+  warn_of_cut_photons(stored.ledger);
   fmt::print("{}: {} stored photons of {} emitted\n", output.string(), stored.photons.size(), stored.emitted);
   print_photons(stored);
   return 0;

@@ -79,10 +79,15 @@ uint32_t number_in_ply(uint64_t number) {
   return static_cast<uint32_t>(number);
 }
 
-/// A comment for each number that stands for a name.
+/// A comment for each number that stands for a name, which has no line breaks there.
 std::string comments(const char* what, std::span<const std::string> names) {
   std::string text;
-  for (size_t i = 0; i < names.size(); ++i) text += fmt::format("comment {} {} {}\n", what, i, names[i]);
+  for (size_t i = 0; i < names.size(); ++i) {
+    std::string name = names[i];
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    text += fmt::format("comment {} {} {}\n", what, i, name);
+  }
   return text;
 }
 

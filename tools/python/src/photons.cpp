@@ -122,6 +122,7 @@ py::dict energy_of(const Ledger& ledger) {
   energy["absorbed_in_media"] = of_photon(ledger.absorbed_in_media);
   energy["absorbed_on_surfaces"] = of_photon(ledger.absorbed_on_surfaces);
   energy["escaped"] = of_photon(ledger.escaped);
+  energy["cut"] = of_photon(ledger.cut);
   return energy;
 }
 

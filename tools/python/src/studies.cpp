@@ -34,8 +34,7 @@ py::list solve_exactly(const std::string& name, const std::vector<std::string>& 
     const py::gil_scoped_release others_run;
     const tools::ExactProblem& problem = tools::find_exact_problem(name);
     tools::ExactArguments arguments(problem.name, problem.keys, given);
-    quantities = problem.solve(arguments);
-    arguments.expect_all_read();
+    quantities = tools::solve(problem, arguments);
   }
   py::list found;
   for (const tools::ExactQuantity& quantity : quantities) found.append(tuple_of(quantity));

@@ -26,7 +26,7 @@ class Photons:
         scatterings (before it came there) and reflections (by mirrors and smooth glass),
         map (its name is in `maps`) and event (its name is in EVENTS).
     emitted: how many photons were. energy: where their power went, W: "emitted", "absorbed_in_media",
-        "absorbed_on_surfaces", "escaped".
+        "absorbed_on_surfaces", "escaped", "cut" (of photons that ended at render.max_events).
 
     Powers of the events "collision" and "hit" sum up to what arrived in a region. Those of the event "flight" stand for
     collisions that there are too few of where a grid is thin: they belong to sums of power / density alone.
@@ -100,16 +100,17 @@ def photons(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overri
 
 def flights(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
             seed: int | None = None, number: int = 0) -> Flights:
-    """All flights of the same photons, from the lights to where they end."""
+    """All flights of the same photons, from the lights to where they end. The integrator must be "photon-map" here,
+    too."""
     return Flights(_vpm.photon_flights(*_asked(scene, overrides, seed, number)))
 
 
 class Field:
     """Fluence and absorbed power inside the media of a scene, in the cells of a box: means over passes and cells.
 
-    fluence (W/m^2; 0 where there is no medium), absorbed (W/m^3), and their standard errors fluence_error and
-    absorbed_error (nan of a single pass): read-only arrays (nx, ny, nz, 3). box: the corners, m. passes: how many.
-    energy: where the power of all photons went, W, as of `Photons`.
+    fluence (W/m^2, of the part of a cell where there is a medium, over the whole cell), absorbed (W/m^3), and their
+    standard errors fluence_error and absorbed_error (nan of a single pass): read-only arrays (nx, ny, nz, 3). box: the
+    corners, m. passes: how many. energy: where the power of all photons went, W, as of `Photons`.
     """
 
     def __init__(self, field: _vpm.FluenceField):
@@ -151,9 +152,11 @@ def fluence(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overri
         if found.shape != (2, 3) or not np.isfinite(found).all() or not (found[0] < found[1]).all():
             raise InputError(f"box: {box} is not ((x0, y0, z0), (x1, y1, z1)) with the first corner below the second")
         corners = [float(x) for x in found.ravel()]
-    count = None if np.ndim(cells) == 0 else tuple(_whole(n, "cells", 1, 100_000) for n in cells)
-    if count is not None and len(count) != 3:
+    if np.shape(cells) not in ((), (3,)):
         raise InputError(f"cells: {cells} is neither a number nor one for each axis")
+    count = None if np.ndim(cells) == 0 else tuple(_whole(n, "cells", 1, 100_000) for n in cells)
+    if cells is None or passes is None:
+        raise InputError("cells and passes are numbers, not None")
     resolution = _whole(cells, "cells", 1, 4096) if count is None else 1
     return Field(_vpm.fluence(job, seed, corners, resolution, count, _whole(passes, "passes", 1, 1_000_000_000)))
 
@@ -162,14 +165,15 @@ class PhotonMap:
     """A photon map of any photons, for questions about many points at once.
 
     photons: a structured array with the fields of `Photons.array`, of which power / density is gathered, as renders do;
-        or positions, an array (n, 3), m.
+        or `Photons`; or positions, an array (n, 3), m.
     powers: array (n, 3), W; 1 unless given. directions: array (n, 3), of travel, of any length but 0; up unless given.
 
-    Queries run on all threads (`set_threads`). Points side by side in an array are quickest side by side in space.
+    All are kept as float32: far from the origin, move photons and points there. Queries run on all threads
+    (`set_threads`). Points side by side in an array are quickest side by side in space.
     """
 
     def __init__(self, photons: ArrayLike, powers: ArrayLike | None = None, directions: ArrayLike | None = None):
-        rows = np.asarray(photons)
+        rows = np.asarray(photons.array if isinstance(photons, Photons) else photons)
         if rows.dtype.names:
             missing = {"position", "direction", "power", "density"} - set(rows.dtype.names)
             if missing:
@@ -213,6 +217,8 @@ class PhotonMap:
         With `directions`: what a medium scatters into that direction of travel, over its albedo, W/(m^3 sr), over
         balls, by the phase function of Henyey and Greenstein with mean cosine `g`.
         With neither: what collides, W/m^3, over balls.
+        Of photons of a grid, whose power / density is gathered, the last two are what they would be at its largest
+        density: times the density at the point, over the largest, is what is there.
         kernel: "constant", "cone", "epanechnikov", "biweight", "triweight" or "order-4".
         """
         points = _finite(points, "points")
@@ -242,10 +248,15 @@ def _number(name: str, names: list[str], what: str) -> int:
 
 def _write(data: Any, path: str, rows: NDArray[Any], **names: Any) -> None:
     if path.endswith(".npz"):
-        with open(path, "wb") as file:
-            np.savez(file, **{field: rows[field] for field in rows.dtype.names}, **names)
-    else:
+        try:
+            with open(path, "wb") as file:
+                np.savez(file, **{field: rows[field] for field in rows.dtype.names}, **names)
+        except OSError as error:
+            raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+    elif path.endswith((".ply", ".csv")):
         data.write(path)
+    else:
+        raise InputError(f"{path}: photons are written as .ply, .csv or .npz")
 
 
 def _finite(values: ArrayLike, what: str, count: int | None = None) -> NDArray[np.float32]:
@@ -266,6 +277,6 @@ def _unit(values: ArrayLike, what: str, count: int) -> NDArray[np.float32]:
 
 
 def _radius(radius: float) -> float:
-    if not 0.0 < radius < float("inf"):
-        raise InputError(f"radius: {radius} is not a number of metres above 0")
+    if np.ndim(radius) != 0 or not 1e-10 <= radius <= 1e9:
+        raise InputError(f"radius: {radius} is not a number of metres from 1e-10 to 1e9")
     return float(radius)

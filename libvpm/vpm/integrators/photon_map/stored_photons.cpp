@@ -117,7 +117,8 @@ PhotonFlights photon_flights(const Scene& scene, const RenderSettings& settings,
   FlightRecorder recorder(scene);
   RenderStatistics statistics;
   trace_pass(scene, settings, plan_estimators(scene, settings, pass), {pass, progress}, statistics, {&recorder});
-  PhotonFlights all{std::move(recorder.flights), names_of_places(scene), statistics.ledger.emitted_count};
+  PhotonFlights all{std::move(recorder.flights), names_of_places(scene), statistics.ledger.emitted_count,
+                    statistics.ledger};
   if (all.flights.empty()) return all;
   const auto scale = static_cast<float>(1.0 / static_cast<double>(all.emitted));
   for (PhotonFlight& flight : all.flights) flight.power *= scale;

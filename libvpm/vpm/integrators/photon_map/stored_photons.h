@@ -19,7 +19,7 @@ enum class PhotonEvent : uint8_t {
   hit,        // of a surface that is not specular, before absorption or scattering is drawn
   escape,     // out of the scene
   specular,   // hit of a mirror or of smooth glass
-  departure   // from a light, where a path begins
+  departure   // from a light: of the first corner of a path in .ply files alone
 };
 /// Their names, in that order.
 std::vector<std::string> names_of_photon_events();
@@ -65,6 +65,7 @@ struct PhotonFlights {
   std::vector<PhotonFlight> flights;
   std::vector<std::string> places;
   uint64_t emitted = 0;
+  Ledger ledger;  // of all photons of the pass
 };
 
 /// The photons of the maps of pass number `pass`, those that a render gathers. Throws SettingError where the integrator
