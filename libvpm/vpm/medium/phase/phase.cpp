@@ -101,4 +101,14 @@ void Droplets::fit() {
   first = static_cast<float>(1.0 - std::exp(-0.599085 / (d - 0.641583) - 0.665888));
 }
 
+float phase_value(const Phase& phase, float cosine) {
+  return std::visit([&](const auto& p) { return p.value(cosine); }, phase);
+}
+float phase_value(const Phase& phase, const Vec3& before, const Vec3& after) {
+  return std::visit([&](const auto& p) { return p.value(before, after); }, phase);
+}
+Vec3 phase_sample(const Phase& phase, const Vec3& travel, const Vec2& u) {
+  return std::visit([&](const auto& p) { return p.sample(travel, u); }, phase);
+}
+
 }  // namespace vpm

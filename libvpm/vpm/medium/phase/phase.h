@@ -108,23 +108,25 @@ struct Draine {
   float g = 0.0f;      // in (-1, 1); the mean cosine is another
   float alpha = 0.0f;  // >= 0
 
-  float value(float cosine) const { return HenyeyGreenstein{g}.value(cosine) * times(cosine); }
+  [[gnu::always_inline]] float value(float cosine) const { return HenyeyGreenstein{g}.value(cosine) * times(cosine); }
   template <class Before, class After>
-  auto value(const Before& before, const After& after) const {
+  [[gnu::always_inline]] auto value(const Before& before, const After& after) const {
     return HenyeyGreenstein{g}.value(before, after) * times(dot(before, after));
   }
   Vec3 sample(const Vec3& travel, const Vec2& u) const;
-  float mean_cosine() const { return g * (1.0f + alpha * (3.0f + 2.0f * g * g) / 5.0f) / total(); }
-  float mean_square_cosine() const {
+  [[gnu::always_inline]] float mean_cosine() const {
+    return g * (1.0f + alpha * (3.0f + 2.0f * g * g) / 5.0f) / total();
+  }
+  [[gnu::always_inline]] float mean_square_cosine() const {
     const float gg = g * g;
     return ((1.0f + 2.0f * gg) / 3.0f + alpha * (7.0f + 20.0f * gg + 8.0f * gg * gg) / 35.0f) / total();
   }
 
  private:
   /// The mean of 1 + alpha cos^2 over Henyey and Greenstein's function.
-  float total() const { return 1.0f + alpha * (1.0f + 2.0f * g * g) / 3.0f; }
+  [[gnu::always_inline]] float total() const { return 1.0f + alpha * (1.0f + 2.0f * g * g) / 3.0f; }
   template <class Real>
-  Real times(const Real& cosine) const {
+  [[gnu::always_inline]] Real times(const Real& cosine) const {
     return (1.0f / total()) * (1.0f + alpha * cosine * cosine);
   }
 };
@@ -136,18 +138,24 @@ struct TwoPhases {
   B b{};
   float first = 0.5f;  // in [0, 1]
 
-  float value(float cosine) const { return first * a.value(cosine) + (1.0f - first) * b.value(cosine); }
+  [[gnu::always_inline]] float value(float cosine) const {
+    return first * a.value(cosine) + (1.0f - first) * b.value(cosine);
+  }
   template <class Before, class After>
-  auto value(const Before& before, const After& after) const {
+  [[gnu::always_inline]] auto value(const Before& before, const After& after) const {
     return first * a.value(before, after) + (1.0f - first) * b.value(before, after);
   }
   /// What is left of the first number, once it has chosen, is one of its own.
-  Vec3 sample(const Vec3& travel, const Vec2& u) const {
+  [[gnu::always_inline]] Vec3 sample(const Vec3& travel, const Vec2& u) const {
     return u.x < first ? a.sample(travel, {u.x / first, u.y})
                        : b.sample(travel, {std::min((u.x - first) / (1.0f - first), 0x1.fffffep-1f), u.y});
   }
-  float mean_cosine() const { return first * a.mean_cosine() + (1.0f - first) * b.mean_cosine(); }
-  float mean_square_cosine() const { return first * a.mean_square_cosine() + (1.0f - first) * b.mean_square_cosine(); }
+  [[gnu::always_inline]] float mean_cosine() const {
+    return first * a.mean_cosine() + (1.0f - first) * b.mean_cosine();
+  }
+  [[gnu::always_inline]] float mean_square_cosine() const {
+    return first * a.mean_square_cosine() + (1.0f - first) * b.mean_square_cosine();
+  }
 };
 
 /// Two lobes of Henyey and Greenstein: as of dust and tissue, forward and back.
@@ -197,9 +205,11 @@ struct Tabulated {
 
   std::shared_ptr<const PhaseTable> table{};  // not null where it is used
 
-  float value(float cosine) const { return table->value(std::sqrt(std::max(0.0f, 0.5f - 0.5f * cosine))); }
+  [[gnu::always_inline]] float value(float cosine) const {
+    return table->value(std::sqrt(std::max(0.0f, 0.5f - 0.5f * cosine)));
+  }
   template <class Before, class After>
-  auto value(const Before& before, const After& after) const {
+  [[gnu::always_inline]] auto value(const Before& before, const After& after) const {
     using std::sqrt;
     const auto apart = after - before;
     const auto s = sqrt(0.25f * dot(apart, apart));
@@ -213,8 +223,8 @@ struct Tabulated {
     }
   }
   Vec3 sample(const Vec3& travel, const Vec2& u) const;
-  float mean_cosine() const { return static_cast<float>(table->mean_cosine()); }
-  float mean_square_cosine() const { return static_cast<float>(table->mean_square_cosine()); }
+  [[gnu::always_inline]] float mean_cosine() const { return static_cast<float>(table->mean_cosine()); }
+  [[gnu::always_inline]] float mean_square_cosine() const { return static_cast<float>(table->mean_square_cosine()); }
 };
 
 using Phase = std::variant<Isotropic, HenyeyGreenstein, Rayleigh, Draine, TwoLobes, Droplets, Tabulated>;
@@ -225,16 +235,10 @@ void for_each_phase(Visit&& visit) {
 }
 
 /// Density per solid angle at `cosine`, 1/sr.
-inline float phase_value(const Phase& phase, float cosine) {
-  return std::visit([&](const auto& p) { return p.value(cosine); }, phase);
-}
+float phase_value(const Phase& phase, float cosine);
 /// The same between directions of travel before and after, unit.
-inline float phase_value(const Phase& phase, const Vec3& before, const Vec3& after) {
-  return std::visit([&](const auto& p) { return p.value(before, after); }, phase);
-}
+float phase_value(const Phase& phase, const Vec3& before, const Vec3& after);
 /// A direction of travel after scattering from `travel`; its density is phase_value(), so no weight is due.
-inline Vec3 phase_sample(const Phase& phase, const Vec3& travel, const Vec2& u) {
-  return std::visit([&](const auto& p) { return p.sample(travel, u); }, phase);
-}
+Vec3 phase_sample(const Phase& phase, const Vec3& travel, const Vec2& u);
 
 }  // namespace vpm
