@@ -3,8 +3,8 @@
 #
 # A binary PLY file holds 500 points with unit normals as floats. Expected: written out again by the program, with nine
 # digits, they are the same, or differ in their last digits. Seen: 489 are turned, by up to 0.2 degrees: normals are kept
-# as numbers of directions in a table. What takes normals for directions of
-# light, as files of photons do, gets others.
+# as numbers of directions in a table. What takes normals for directions of light, as files of photons do, gets
+# others.
 #
 # Needs root for apt-get, and Debian 12.
 set -euo pipefail

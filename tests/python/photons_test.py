@@ -255,8 +255,9 @@ def test_estimates_are_sums_of_powers_and_kernels():
     disc = np.where(q < 1, 2 / np.pi / 0.3**2 * (1 - q), 0)
     assert np.allclose(photons.estimate(points, 0.3), ball @ powers, rtol=1e-5)
     normals = np.broadcast_to([0.0, 0.6, 0.8], points.shape)
-    arrives = directions @ [0.0, 0.6, 0.8] < 0
-    assert np.allclose(photons.estimate(points, 0.3, normals=normals), disc[:, arrives] @ powers[arrives], rtol=1e-5)
+    height = np.abs((positions[None].astype(float) - points[:, None]) @ [0.0, 0.6, 0.8])
+    arrives = (directions @ [0.0, 0.6, 0.8] < 0) & (height <= 0.05 * 0.3 + 0.3 * apart)
+    assert np.allclose(photons.estimate(points, 0.3, normals=normals), (disc * arrives) @ powers, rtol=1e-5)
     away = np.broadcast_to([1.0, 0, 0], points.shape)
     scattered = ball * henyey_greenstein(directions[:, 0])
     assert np.allclose(photons.estimate(points, 0.3, directions=away, g=G), scattered @ powers, rtol=1e-4)

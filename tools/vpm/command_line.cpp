@@ -28,16 +28,20 @@ void add_exposure(CLI::App* command, std::optional<float>& exposure, const std::
       ->check(check_stops);
 }
 
-/// Options of all commands that run passes; returns the option --passes.
-CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std::string& usual_name) {
-  command->add_option("-o,--output", options.output,
-                      "Image to write (.exr); default: " + usual_name + ".exr in the current folder");
+/// Options of all commands that trace photons or paths; `output`: what is written where.
+void add_scene_options(CLI::App* command, SceneOptions& options, const std::string& output) {
+  command->add_option("-o,--output", options.output, output + " in the current folder");
   command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
   command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  add_exposure(command, options.exposure, "the preview");
   add_progress(command, options.progress);
+}
+
+/// Options of all commands that run passes; returns the option --passes.
+CLI::Option* add_pass_options(CLI::App* command, PassOptions& options, const std::string& usual_name) {
+  add_scene_options(command, options, "Image to write (.exr); default: " + usual_name + ".exr");
+  add_exposure(command, options.exposure, "the preview");
   return command->add_option("--passes", options.passes, "Passes to average")->check(whole_number(1, 1'000'000'000));
 }
 
@@ -192,17 +196,11 @@ void add_photons(CLI::App& app, PhotonsOptions& options) {
       "Example: vpm photons scenes/smoke.toml -o smoke.ply writes the photon maps of the first pass for a viewer of "
       "points.");
   add_scene(command, options.scene);
-  command->add_option("-o,--output", options.output,
-                      "File to write (.ply or .csv); default: SCENE.ply in the current folder");
+  add_scene_options(command, options, "File to write (.ply or .csv); default: SCENE.ply");
   command->add_flag("--paths", options.paths, "Write the flights of all photons, as lines, instead");
   command->add_option("--pass", options.pass, "Of this pass, numbered from 0")
       ->check(whole_number(0, 1'000'000'000))
       ->capture_default_str();
-  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
-  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  add_progress(command, options.progress);
 }
 
 void add_fluence(CLI::App& app, FluenceOptions& options) {
@@ -212,8 +210,7 @@ void add_fluence(CLI::App& app, FluenceOptions& options) {
       "Example: vpm fluence scenes/fog_room.toml -o room.npy --resolution 32 writes an array of numpy's: fluence in "
       "W/m^2, absorbed power in W/m^3, and their standard errors.");
   add_scene(command, options.scene);
-  command->add_option("-o,--output", options.output,
-                      "File to write (.npy); default: SCENE.fluence.npy in the current folder");
+  add_scene_options(command, options, "File to write (.npy); default: SCENE.fluence.npy");
   command->add_option("--box", options.box, "Corners x0 y0 z0 x1 y1 z1, m; default: the box of the scene")->expected(6);
   command->add_option("--resolution", options.resolution, "Cells along the longest edge of the box")
       ->check(whole_number(1, 4096))
@@ -221,11 +218,6 @@ void add_fluence(CLI::App& app, FluenceOptions& options) {
   command->add_option("--passes", options.passes, "Passes to average, of as many photons as the scene says")
       ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str();
-  command->add_option("--set", options.overrides, "Change a key of the scene: key.path=value; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--threads", options.threads, "Threads; 0: one for each core")->check(whole_number(0, 1024));
-  command->add_option("--seed", options.seed, "Seed of all random numbers")->check(check_seed);
-  add_progress(command, options.progress);
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {

@@ -11,16 +11,20 @@
 
 namespace vpm::tools {
 
-/// Options of all that run passes.
-struct PassOptions {
+/// Options of all that trace photons or paths through a scene.
+struct SceneOptions {
   std::string scene;                   // a scene file
-  std::string output;                  // .exr; empty: a name made of the scene's in the current folder
+  std::string output;                  // empty: a name made of the scene's in the current folder
   std::vector<std::string> overrides;  // key.path=value
   int threads = 0;                     // 0: all
-  std::optional<int> passes;
   std::optional<uint64_t> seed;
-  std::optional<float> exposure;  // of the preview, stops; none: auto_exposure()
   ProgressMode progress = ProgressMode::automatic;
+};
+
+/// Options of all that run passes, to an .exr.
+struct PassOptions : SceneOptions {
+  std::optional<int> passes;
+  std::optional<float> exposure;  // of the preview, stops; none: auto_exposure()
 };
 
 /// How a run can be watched.
@@ -97,29 +101,17 @@ struct BakeOptions : PassOptions {
 /// next to it. 130 when interrupted: the finished passes are written.
 int bake_command(const BakeOptions& options);
 
-struct PhotonsOptions {
-  std::string scene;                   // a scene file
-  std::string output;                  // .ply or .csv; empty: SCENE.ply in the current folder
-  std::vector<std::string> overrides;  // key.path=value
-  bool paths = false;                  // flights in the place of stored photons
-  int pass = 0;                        // whose photons
-  std::optional<uint64_t> seed;
-  int threads = 0;  // 0: all
-  ProgressMode progress = ProgressMode::automatic;
+struct PhotonsOptions : SceneOptions {  // to a .ply or .csv
+  bool paths = false;                   // flights in the place of stored photons
+  int pass = 0;                         // whose photons
 };
 /// Writes the photons that the maps of a pass store, or the flights of all its photons.
 int photons_command(const PhotonsOptions& options);
 
-struct FluenceOptions {
-  std::string scene;                   // a scene file
-  std::string output;                  // .npy; empty: SCENE.fluence.npy in the current folder
-  std::vector<std::string> overrides;  // key.path=value
-  std::vector<float> box;              // x0, y0, z0, x1, y1, z1, m; empty: the scene's
-  int resolution = 64;                 // cells along its longest edge
+struct FluenceOptions : SceneOptions {  // to a .npy
+  std::vector<float> box;               // x0, y0, z0, x1, y1, z1, m; empty: the scene's
+  int resolution = 64;                  // cells along its longest edge
   int passes = 16;
-  std::optional<uint64_t> seed;
-  int threads = 0;  // 0: all
-  ProgressMode progress = ProgressMode::automatic;
 };
 /// Writes the fluence and the absorbed power in the cells of a box.
 int fluence_command(const FluenceOptions& options);

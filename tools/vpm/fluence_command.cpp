@@ -10,20 +10,19 @@
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/job/fluence.h"
+#include "vpm/job/messages.h"
 
 namespace vpm::tools {
 namespace {
 
-CellLattice lattice_of(const FluenceOptions& options, const Scene& scene) {
-  CellLattice lattice = lattice_of_scene(scene, options.resolution);
-  if (options.box.empty()) return lattice;
+Box box_of(const FluenceOptions& options, const Scene& scene) {
+  if (options.box.empty()) return scene.bounds;
   const std::vector<float>& b = options.box;
-  Scene framed;
-  framed.bounds = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
-  const Vec3 extent = framed.bounds.extent();
+  const Box box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+  const Vec3 extent = box.extent();
   if (!(extent.x > 0.0f && extent.y > 0.0f && extent.z > 0.0f))
     throw InputError("--box x0 y0 z0 x1 y1 z1: the first corner must be below the second along each axis");
-  return lattice_of_scene(framed, options.resolution);
+  return box;
 }
 
 }  // namespace
@@ -38,10 +37,11 @@ int fluence_command(const FluenceOptions& options) {
   refuse_automatic(job, "vpm fluence");
   if (options.seed) job.settings.seed = *options.seed;
   print_notes(job);
-  const FluenceField field = measure_fluence(job.scene, job.settings, lattice_of(options, job.scene), options.passes,
-                                             {progress_enabled(options.progress)});
+  const FluenceField field =
+      measure_fluence(job.scene, job.settings, about_cubes(box_of(options, job.scene), options.resolution),
+                      options.passes, {progress_enabled(options.progress)});
   write_field(field, output);
-  warn_of_cut_photons(field.ledger);
+  print_warnings(warnings_of(field.ledger));
   if (std::all_of(field.fluence.begin(), field.fluence.end(), [](const Rgb& fluence) { return is_black(fluence); }))
     print_warnings({"no photon flew through a medium in the box"});
   const auto& [lo, hi] = field.lattice.box;

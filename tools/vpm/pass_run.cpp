@@ -28,11 +28,6 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
-void warn_of_cut_photons(const Ledger& ledger) {
-  if (ledger.cut_count > 0)
-    print_warnings({fmt::format("{} photons were cut at render.max_events: their power is missing", ledger.cut_count)});
-}
-
 int say_interrupted(const StopRule& until, int passes) {
   if (passes == 0)
     fmt::print(stderr, "interrupted before the first pass was finished: no picture is written\n");

@@ -8,7 +8,6 @@
 #include "this_process.h"
 #include "vpm/image/image.h"
 #include "vpm/job/render_job.h"
-#include "vpm/photon/ledger.h"
 
 namespace vpm::tools {
 
@@ -41,8 +40,6 @@ void refuse_automatic(const RenderJob& job, const std::string& command);
 void print_notes(const RenderJob& job);
 /// What went wrong without stopping the run; on stderr, too.
 void print_warnings(const std::vector<std::string>& warnings);
-/// Of photons that ended at render.max_events, whose power is missing.
-void warn_of_cut_photons(const Ledger& ledger);
 /// After how many passes a run was interrupted; without any nothing is written. Returns the exit status.
 int say_interrupted(const StopRule& until, int passes);
 

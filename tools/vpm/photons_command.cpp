@@ -8,6 +8,7 @@
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/integrators/photon_map/stored_photons.h"
+#include "vpm/job/messages.h"
 #include "vpm/job/photon_files.h"
 
 namespace vpm::tools {
@@ -15,19 +16,21 @@ namespace {
 
 /// The photons of each map at each place, and the power that they brought there.
 void print_photons(const StoredPhotons& stored) {
-  for (size_t map = 0; map < stored.maps.size(); ++map)
-    for (size_t place = 0; place < stored.places.size(); ++place) {
-      uint64_t count = 0;
-      Rgbd power(0.0);
-      for (const StoredPhoton& photon : stored.photons)
-        if (photon.map == map && photon.place == place) {
-          ++count;
-          if (photon.event != PhotonEvent::flight) power += Rgbd(photon.power);
-        }
-      if (count > 0)
+  struct Brought {
+    uint64_t count = 0;
+    Rgbd power{0.0};
+  };
+  std::vector<std::vector<Brought>> brought(stored.maps.size(), std::vector<Brought>(stored.places.size()));
+  for (const StoredPhoton& photon : stored.photons) {
+    Brought& there = brought[photon.map][photon.place];
+    ++there.count;
+    if (photon.event != PhotonEvent::flight) there.power += Rgbd(photon.power);
+  }
+  for (size_t map = 0; map < brought.size(); ++map)
+    for (size_t place = 0; place < brought[map].size(); ++place)
+      if (const auto& [count, power] = brought[map][place]; count > 0)
         fmt::print("  {} map, {}: {} photons, ({:.6g}, {:.6g}, {:.6g}) W\n", stored.maps[map], stored.places[place],
                    count, power.r, power.g, power.b);
-    }
 }
 
 }  // namespace
@@ -46,13 +49,13 @@ int photons_command(const PhotonsOptions& options) {
   if (options.paths) {
     const PhotonFlights flights = photon_flights(job.scene, job.settings, options.pass, progress);
     write_flights(flights, output);
-    warn_of_cut_photons(flights.ledger);
+    print_warnings(warnings_of(flights.ledger));
     fmt::print("{}: {} flights of {} photons\n", output.string(), flights.flights.size(), flights.emitted);
     return 0;
   }
   const StoredPhotons stored = stored_photons(job.scene, job.settings, options.pass, progress);
   write_photons(stored, output);
-  warn_of_cut_photons(stored.ledger);
+  print_warnings(warnings_of(stored.ledger));
   fmt::print("{}: {} stored photons of {} emitted\n", output.string(), stored.photons.size(), stored.emitted);
   print_photons(stored);
   return 0;

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "vpm/base/parallel.h"
-#include "vpm/estimate/kernel_sum.h"
+#include "vpm/estimate/surface_estimate.h"
 #include "vpm/medium/phase/phase.h"
 
 namespace vpm {
@@ -22,15 +22,16 @@ void for_points(size_t count, OfPoint&& of) {
   });
 }
 
-/// The sum of weight(squared distance over that of the radius) times power, over the photons that accept(travel) takes.
+/// The sum of weight(squared distance over that of the radius, number of the photon in the map) times power.
 template <class Weight>
 Rgbd sum_near(const RadiusMap& map, const Vec3& point, float radius, Weight&& weight) {
   Rgbd sum(0.0);
   const float inverse = 1.0f / (radius * radius);
   map.visit_near(point, radius, [&](const NearPhotons& near) {
     for (size_t k = 0; k < near.size(); ++k) {
-      const PhotonTable::Payload& photon = map.photons().payload(near.photons()[k]);
-      sum += Rgbd(photon.power.unpack()) * double{weight(near.distances2()[k] * inverse, photon.travel)};
+      const uint32_t photon = near.photons()[k];
+      const Rgbd power(map.photons().payload(photon).power.unpack());
+      sum += power * double{weight(near.distances2()[k] * inverse, photon)};
     }
   });
   return sum;
@@ -117,25 +118,25 @@ std::vector<Rgb> PhotonQueries::estimate(std::span<const Vec3> points, float rad
   const auto estimate_all = [&]<int Dimension>(float norm, auto&& factor) {
     with_kernel<Dimension>(kernel, [&](auto profile) {
       for_points(points.size(), [&](size_t i) {
-        estimates[i] =
-            Rgb(double{norm} * sum_near(sorted->map, points[i], radius, [&](float q, const PackedDirection& travel) {
-                  return profile(q).value * factor(i, travel);
-                }));
+        estimates[i] = Rgb(double{norm} * sum_near(sorted->map, points[i], radius, [&](float q, uint32_t photon) {
+                             return profile(q).value * factor(i, photon);
+                           }));
       });
       return 0;
     });
   };
+  const PhotonTable& photons = sorted->map.photons();
   if (!of.normals.empty())
-    estimate_all.template operator()<2>(kernel_norm_2d(kernel, radius), [&](size_t i, const PackedDirection& travel) {
-      return glm::dot(travel.unpack(), of.normals[i]) < 0.0f ? 1.0f : 0.0f;
+    estimate_all.template operator()<2>(kernel_norm_2d(kernel, radius), [&](size_t i, uint32_t photon) {
+      const Arrives arrives{of.normals[i], kFlatness * radius};
+      return arrives(photons.payload(photon).travel, photons.position(photon) - points[i]) ? 1.0f : 0.0f;
     });
   else if (!of.directions.empty())
-    estimate_all.template operator()<3>(kernel_norm_3d(kernel, radius), [&](size_t i, const PackedDirection& travel) {
-      return phase.value(travel.unpack(), of.directions[i]);
+    estimate_all.template operator()<3>(kernel_norm_3d(kernel, radius), [&](size_t i, uint32_t photon) {
+      return phase.value(photons.payload(photon).travel.unpack(), of.directions[i]);
     });
   else
-    estimate_all.template operator()<3>(kernel_norm_3d(kernel, radius),
-                                        [](size_t, const PackedDirection&) { return 1.0f; });
+    estimate_all.template operator()<3>(kernel_norm_3d(kernel, radius), [](size_t, uint32_t) { return 1.0f; });
   return estimates;
 }
 

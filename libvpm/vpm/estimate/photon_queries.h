@@ -28,7 +28,8 @@ struct NearestLists {
   std::vector<float> distances;  // m
 };
 
-/// What is estimated at a point: on a surface of that normal the irradiance, W/m^2, by a disc; in a medium what is
+/// What is estimated at a point: on a surface of that normal the irradiance, W/m^2, by a disc of photons near its plane
+/// that arrive on that side (Arrives); in a medium what is
 /// scattered into a direction of travel, over the albedo, W/(m^3 sr), by a ball and Henyey-Greenstein's phase function;
 /// or with neither, what collides, W/m^3. The vectors are unit, one for each point, or none.
 struct EstimateOf {

@@ -70,10 +70,10 @@ double mean_power(const Scene& scene) {
 
 }  // namespace
 
-CellLattice lattice_of_scene(const Scene& scene, int resolution) {
-  const Vec3d extent(scene.bounds.extent());
+CellLattice about_cubes(const Box& box, int resolution) {
+  const Vec3d extent(box.extent());
   const double edge = std::max({extent.x, extent.y, extent.z}) / resolution;
-  return {scene.bounds, glm::max(Vec3i(1), Vec3i(glm::round(extent / edge)))};
+  return {box, glm::max(Vec3i(1), Vec3i(glm::round(extent / edge)))};
 }
 
 FluenceField measure_fluence(const Scene& scene, const RenderSettings& settings, const CellLattice& lattice, int passes,

@@ -22,8 +22,8 @@ struct FluenceField {
   std::vector<Rgb> fluence_error, absorbed_error;
 };
 
-/// The box of the whole scene, in about cubes, `resolution` >= 1 along its longest edge.
-CellLattice lattice_of_scene(const Scene& scene, int resolution);
+/// A box in about cubes, `resolution` >= 1 along its longest edge.
+CellLattice about_cubes(const Box& box, int resolution);
 
 /// Traces so many passes of photons, as many as the settings emit, whatever the integrator. Throws SettingError where
 /// photons fly by another law than transmittance, or are guided, and InputError where the cells do not fit into the

@@ -20,9 +20,8 @@ std::vector<std::string> warnings_about(const SceneFacts& shown, const RenderSet
   const auto warn = [&](uint64_t count, const char* what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
   };
-  warn(s.ledger.non_finite, "photons were dropped because their power was not finite");
+  for (std::string& warning : warnings_of(s.ledger)) warnings.push_back(std::move(warning));
   warn(s.eye.non_finite, "samples were dropped because they were not finite");
-  warn(s.ledger.cut_count, "photons were cut at render.max_events");
   warn(s.eye.gather.least_shares, "estimates at borders had less than a 64th of their kernel left, and are too dark");
   warn(s.eye.cut_paths, "eye paths were cut at render.max_events");
   // Rays through the very edges of boundaries need a correction now and then: some in 1e7. More means media that
@@ -100,6 +99,15 @@ std::vector<std::string> all_warnings(const SceneFacts& shown, const RenderJob& 
 }
 
 }  // namespace
+
+std::vector<std::string> warnings_of(const Ledger& ledger) {
+  std::vector<std::string> warnings;
+  if (ledger.non_finite > 0)
+    warnings.push_back(fmt::format("{} photons were dropped because their power was not finite", ledger.non_finite));
+  if (ledger.cut_count > 0)
+    warnings.push_back(fmt::format("{} photons were cut at render.max_events", ledger.cut_count));
+  return warnings;
+}
 
 std::vector<std::string> warnings_of(const RenderJob& job, const RenderResult& result) {
   return all_warnings(facts_of(job.scene), job, result);

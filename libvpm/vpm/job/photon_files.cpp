@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -175,6 +176,8 @@ void append_vertex(std::string& bytes, const PhotonFlight& flight, const Vec3& p
 void write_flights_ply(const PhotonFlights& all, RowFile& file) {
   std::vector<uint32_t> ends;  // the vertex of each flight's end
   uint32_t vertices = 0;
+  if (all.flights.size() > 0x3fffffff)
+    throw InputError("there are too many flights for the numbers of vertices in a .ply file; write .csv");
   for (size_t i = 0; i < all.flights.size(); ++i) {
     vertices += follows(all, i) ? 1 : 2;
     ends.push_back(vertices - 1);

@@ -2,18 +2,22 @@
 #include "vpm/photon/field_recorder.h"
 
 #include <cmath>
-#include <stdexcept>
+#include <cstdlib>
 
+#include "vpm/base/error.h"
 #include "vpm/medium/distance/mixture.h"
 
 namespace vpm {
 
 void CellSums::add(size_t cell, const Rgbd& value) {
   constexpr double kMost = 0x1p53;
+  constexpr int64_t kFull = int64_t{1} << 62;
   for (size_t c = 0; c < 3; ++c) {
     const double units = std::nearbyint(value[static_cast<int>(c)] / unit_);
-    if (!(std::abs(units) <= kMost)) throw std::overflow_error("a photon is too heavy for the sums of its cell");
-    sums_[3 * cell + c].fetch_add(static_cast<int64_t>(units), std::memory_order_relaxed);
+    if (!(std::abs(units) <= kMost))
+      throw InputError("a photon carries millions of times the mean power, too much for the sums of its cell");
+    if (std::abs(sums_[3 * cell + c].fetch_add(static_cast<int64_t>(units), std::memory_order_relaxed)) > kFull)
+      throw InputError("the sums of a cell are full: make more passes of fewer photons");
   }
 }
 

@@ -20,7 +20,8 @@ class CellSums {
  public:
   CellSums(size_t cells, double unit) : sums_(3 * cells), unit_(unit) {}
 
-  /// Any thread may call it at any time. Throws std::overflow_error for what is over 2^53 times the unit.
+  /// Any thread may call it at any time. Throws InputError where the sum is about to leave its range: for what is over
+  /// 2^53 times the unit, and where there is 2^62 times that already.
   void add(size_t cell, const Rgbd& value);
   Rgbd operator[](size_t cell) const;
   void clear();

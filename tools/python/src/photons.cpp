@@ -132,10 +132,8 @@ using Count = std::array<int, 3>;
 /// The cells of that box, or of the scene's; cubes of so many along its longest edge, or as many as are asked for.
 CellLattice lattice_of(const Scene& scene, const std::optional<Corners>& box, int resolution,
                        const std::optional<Count>& count) {
-  Scene framed;
-  framed.bounds = scene.bounds;
-  if (box) framed.bounds = {{(*box)[0], (*box)[1], (*box)[2]}, {(*box)[3], (*box)[4], (*box)[5]}};
-  CellLattice lattice = lattice_of_scene(framed, resolution);
+  const Box asked = box ? Box{{(*box)[0], (*box)[1], (*box)[2]}, {(*box)[3], (*box)[4], (*box)[5]}} : scene.bounds;
+  CellLattice lattice = about_cubes(asked, resolution);
   if (count) lattice.count = {(*count)[0], (*count)[1], (*count)[2]};
   return lattice;
 }

@@ -23,7 +23,7 @@ class Photons:
         position (m), direction (of travel, unit), power (W, red, green, blue; divided by the photons emitted),
         density (of a grid at the photon, relative to its largest; else 1: maps store power / density),
         number (of the photon among those emitted), place (its name is in `places`),
-        scatterings (before it came there) and reflections (by mirrors and smooth glass),
+        scatterings (before it came there) and reflections (by mirrors and smooth glass), 65535 for all that are more,
         map (its name is in `maps`) and event (its name is in EVENTS).
     emitted: how many photons were. energy: where their power went, W: "emitted", "absorbed_in_media",
         "absorbed_on_surfaces", "escaped", "cut" (of photons that ended at render.max_events).
@@ -213,7 +213,8 @@ class PhotonMap:
                  ) -> NDArray[np.float32]:
         """The density of power at each point, an array (n, 3).
 
-        With `normals`: the irradiance of a surface there, W/m^2, by photons that arrive on that side, over discs.
+        With `normals`: the irradiance of a surface there, W/m^2, over discs, by photons that arrive on that side no
+        farther from its plane than 0.05 of the radius and 0.3 of their distance: those of other surfaces are left out.
         With `directions`: what a medium scatters into that direction of travel, over its albedo, W/(m^3 sr), over
         balls, by the phase function of Henyey and Greenstein with mean cosine `g`.
         With neither: what collides, W/m^3, over balls.

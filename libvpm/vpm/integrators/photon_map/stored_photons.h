@@ -27,14 +27,15 @@ std::vector<std::string> names_of_photon_events();
 /// A photon of a map. Collisions and hits are what photons did: their powers sum up to what arrived in a region. With
 /// those of flights besides, powers over densities are what the map stores.
 struct StoredPhoton {
-  Vec3 position{0.0f};                        // m
-  Vec3 direction{0.0f};                       // of travel on arrival, unit, as the map stores it
-  Rgb power{0.0f};                            // W, already divided by the photons emitted
-  float density = 1.0f;                       // of a grid, relative to its largest: the map stores power / density
-  uint64_t number = 0;                        // of the photon among those emitted
-  uint32_t place = 0;                         // StoredPhotons::places
-  uint16_t scatterings = 0, reflections = 0;  // before, in media and on surfaces; by mirrors and smooth glass
-  uint8_t map = 0;                            // StoredPhotons::maps
+  Vec3 position{0.0f};   // m
+  Vec3 direction{0.0f};  // of travel on arrival, unit, as the map stores it
+  Rgb power{0.0f};       // W, already divided by the photons emitted
+  float density = 1.0f;  // of a grid, relative to its largest: the map stores power / density
+  uint64_t number = 0;   // of the photon among those emitted
+  uint32_t place = 0;    // StoredPhotons::places
+  // Before, in media and on surfaces; by mirrors and smooth glass. 65535 stands for as many or more.
+  uint16_t scatterings = 0, reflections = 0;
+  uint8_t map = 0;  // StoredPhotons::maps
   PhotonEvent event = PhotonEvent::collision;
   uint8_t unused[6] = {};
 };

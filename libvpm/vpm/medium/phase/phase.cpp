@@ -93,7 +93,7 @@ Vec3 Tabulated::sample(const Vec3& travel, const Vec2& u) const {
 }
 
 void Droplets::fit() {
-  // The fits of [Jendersie2023] to Mie's solution for water, averaged over visible light.
+  // The fits of [Jendersie2023] to Mie's solution for water.
   const double d = diameter;
   a.g = static_cast<float>(std::exp(-0.0990567 / (d - 1.67154)));
   b.g = static_cast<float>(std::exp(-2.20679 / (d + 3.91029) - 0.428934));

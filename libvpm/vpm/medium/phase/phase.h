@@ -183,8 +183,8 @@ struct TwoLobes : TwoPhases<HenyeyGreenstein, HenyeyGreenstein> {
   float share = 0.5f;          // of what the first lobe scatters
 };
 
-/// Droplets of water in fog and clouds, in visible light, by one diameter [Jendersie2023]: a narrow lobe of Henyey and
-/// Greenstein, and one of Draine. Bows and glory, of less than a hundredth of the light, are not in it.
+/// Droplets of water in fog and clouds, by their diameter [Jendersie2023]: a narrow lobe of Henyey and Greenstein, and
+/// one of Draine. Bows and glory are not in it.
 struct Droplets : TwoPhases<HenyeyGreenstein, Draine> {
   static constexpr std::string_view kName = "droplets";
   static constexpr auto numbers() {
