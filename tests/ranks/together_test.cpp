@@ -124,10 +124,11 @@ TEST(Together, AStopWaitsForNobody) {
   Post post(2);
   RankInMemory leader(post, 0), gone(post, 1);
   gone.send(0, "a");  // asks for a number, and is never heard of again
-  std::atomic<bool> stop{false};
+  std::atomic<bool> stop{false}, given{false};
   const RunControl control{ProgressMode::never, [&](const RenderResult& so_far) { stop = so_far.film.passes() == 3; }};
-  const PassMaker slow{[](int number, const RenderResult&, const PassProgress&) {
-                         for (; number > 3; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+  // The leader's own passes wait until the other rank has given its one, whose number is 0 or 1, and end after three.
+  const PassMaker slow{[&](int number, const RenderResult&, const PassProgress&) {
+                         for (; !given || number > 3; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
                            cancellation_point();
                          return some_pass(number);
                        },
@@ -135,6 +136,7 @@ TEST(Together, AStopWaitsForNobody) {
   std::thread other([&] {  // makes the one pass that it is told to
     const std::string order = wait_for_message(gone).bytes;
     gone.send(0, "p" + order.substr(1) + "\n" + bytes_of(some_pass(std::stoi(order.substr(1)))));
+    given = true;
   });
   const CancelScope scope(stop);
   const RenderResult result = lead_passes(leader, {.passes = 100}, slow, nothing(), control);
