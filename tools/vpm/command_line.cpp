@@ -203,6 +203,19 @@ void add_photons(CLI::App& app, PhotonsOptions& options) {
       ->capture_default_str();
 }
 
+void add_count_options(CLI::App* command, CountOptions& options) {
+  CLI::Option* passes = command
+                            ->add_option("--passes", options.passes,
+                                         "Passes to average, of as many photons as the scene says")
+                            ->check(whole_number(1, 1'000'000'000))
+                            ->capture_default_str();
+  command
+      ->add_option("--time", options.seconds,
+                   "Passes until so many seconds from the start of the process are over, as far as they fit")
+      ->check(check_seconds)
+      ->excludes(passes);
+}
+
 void add_fluence(CLI::App& app, FluenceOptions& options) {
   CLI::App* command =
       app.add_subcommand("fluence", "Measure fluence and absorbed power inside media, in the cells of a box");
@@ -215,9 +228,19 @@ void add_fluence(CLI::App& app, FluenceOptions& options) {
   command->add_option("--resolution", options.resolution, "Cells along the longest edge of the box")
       ->check(whole_number(1, 4096))
       ->capture_default_str();
-  command->add_option("--passes", options.passes, "Passes to average, of as many photons as the scene says")
-      ->check(whole_number(1, 1'000'000'000))
-      ->capture_default_str();
+  add_count_options(command, options);
+}
+
+void add_measure(CLI::App& app, MeasureOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("measure", "Count the power that passes detectors, with standard errors, and what is exact");
+  command->footer(
+      "Example: vpm measure scenes/slab.toml --time 10 prints what a slab reflects, transmits and absorbs, beside the "
+      "exact values.");
+  add_scene(command, options.scene);
+  add_scene_options(command, options, "File to write (.json), besides");
+  command->add_flag("--json", options.json, "Print JSON");
+  add_count_options(command, options);
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
@@ -347,6 +370,7 @@ void declare_commands(CLI::App& app, CommandLine& options) {
   add_bake(app, options.bake);
   add_photons(app, options.photons);
   add_fluence(app, options.fluence);
+  add_measure(app, options.measure);
   add_compare(app, options.compare);
   add_info(app, options.info);
   add_error(app, options.error);

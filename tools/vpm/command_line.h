@@ -19,6 +19,7 @@ struct CommandLine {
   BakeOptions bake;
   PhotonsOptions photons;
   FluenceOptions fluence;
+  MeasureOptions measure;
   CompareOptions compare;
   InfoOptions info;
   ErrorOptions error;

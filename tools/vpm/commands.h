@@ -108,13 +108,24 @@ struct PhotonsOptions : SceneOptions {  // to a .ply or .csv
 /// Writes the photons that the maps of a pass store, or the flights of all its photons.
 int photons_command(const PhotonsOptions& options);
 
-struct FluenceOptions : SceneOptions {  // to a .npy
+/// Options of all that count photons pass by pass.
+struct CountOptions : SceneOptions {
+  int passes = 16;
+  std::optional<double> seconds;  // in the place of passes
+};
+
+struct FluenceOptions : CountOptions {  // to a .npy
   std::vector<float> box;               // x0, y0, z0, x1, y1, z1, m; empty: the scene's
   int resolution = 64;                  // cells along its longest edge
-  int passes = 16;
 };
 /// Writes the fluence and the absorbed power in the cells of a box.
 int fluence_command(const FluenceOptions& options);
+
+struct MeasureOptions : CountOptions {  // to a .json; where no output is named, to none
+  bool json = false;                    // print JSON
+};
+/// Counts the power that passes a scene's detectors, beside what is exact of a slab.
+int measure_command(const MeasureOptions& options);
 
 struct CompareOptions {
   std::string experiment;              // an experiment file

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "pass_run.h"
 #include "this_process.h"
+#include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
 #include "vpm/input/scene_file.h"
@@ -37,24 +38,25 @@ int fluence_command(const FluenceOptions& options) {
   refuse_automatic(job, "vpm fluence");
   if (options.seed) job.settings.seed = *options.seed;
   print_notes(job);
+  const CancelScope scope(stop_on_signals());
   const FluenceField field =
       measure_fluence(job.scene, job.settings, about_cubes(box_of(options, job.scene), options.resolution),
-                      options.passes, {progress_enabled(options.progress)});
+                      photon_run(options));
   write_field(field, output);
-  print_warnings(warnings_of(field.ledger));
+  print_warnings(warnings_of(field.run.ledger));
   if (std::all_of(field.fluence.begin(), field.fluence.end(), [](const Rgb& fluence) { return is_black(fluence); }))
     print_warnings({"no photon flew through a medium in the box"});
   const auto& [lo, hi] = field.lattice.box;
-  const double photons = static_cast<double>(field.ledger.emitted_count), volume = field.lattice.volume();
+  const double photons = static_cast<double>(field.run.ledger.emitted_count), volume = field.lattice.volume();
   Rgbd absorbed(0.0);
   for (const Rgb& power : field.absorbed) absorbed += volume * Rgbd(power);
-  fmt::print("{}: {} x {} x {} cells of the box ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m, {} passes\n",
+  fmt::print("{}: {} x {} x {} cells of the box ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m, {}\n",
              output.string(), field.lattice.count.x, field.lattice.count.y, field.lattice.count.z, lo.x, lo.y, lo.z,
-             hi.x, hi.y, hi.z, field.passes);
-  const Rgbd all = field.ledger.absorbed_in_media / photons;
+             hi.x, hi.y, hi.z, passes_text(field.run.passes));
+  const Rgbd all = field.run.ledger.absorbed_in_media / photons;
   fmt::print("  absorbed in it ({:.6g}, {:.6g}, {:.6g}) W, in all media ({:.6g}, {:.6g}, {:.6g}) W\n", absorbed.r,
              absorbed.g, absorbed.b, all.r, all.g, all.b);
-  return 0;
+  return field.run.interrupted ? say_interrupted(photon_run(options).until, field.run.passes) : 0;
 }
 
 }  // namespace vpm::tools

@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("bake")) return bake_command(options.bake);
   if (app.got_subcommand("photons")) return photons_command(options.photons);
   if (app.got_subcommand("fluence")) return fluence_command(options.fluence);
+  if (app.got_subcommand("measure")) return measure_command(options.measure);
   if (app.got_subcommand("compare")) return compare_command(options.compare);
   if (app.got_subcommand("info")) return info_command(options.info);
   if (app.got_subcommand("error")) return error_command(options.error);

@@ -93,6 +93,10 @@ void apply_options(const PassOptions& options, RenderSettings& settings) {
   if (options.passes) settings.until = {.passes = *options.passes};
 }
 
+PhotonRun photon_run(const CountOptions& options) {
+  return {{.passes = options.passes, .seconds = options.seconds.value_or(0.0)}, clock_of_process(), options.progress};
+}
+
 void refuse_automatic(const RenderJob& job, const std::string& command) {
   if (!job.automatic.keys.empty())
     throw InputError(fmt::format(

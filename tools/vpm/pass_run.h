@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "this_process.h"
 #include "vpm/image/image.h"
+#include "vpm/job/photon_passes.h"
 #include "vpm/job/render_job.h"
 
 namespace vpm::tools {
@@ -32,6 +33,9 @@ Image without_fire(const Scene& scene, Image picture);
 
 /// The seed and the number of passes.
 void apply_options(const PassOptions& options, RenderSettings& settings);
+
+/// How photons are counted pass by pass.
+PhotonRun photon_run(const CountOptions& options);
 
 /// Throws InputError where a setting is "auto", for a command that chooses none.
 void refuse_automatic(const RenderJob& job, const std::string& command);

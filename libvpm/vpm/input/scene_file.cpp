@@ -23,6 +23,8 @@ struct ScenePlan {
   std::vector<MaterialPlan> materials;
   std::vector<ShapePlan> shapes;
   std::vector<LightPlan> lights;
+  std::vector<DetectorPlan> detectors;
+  std::array<bool, 3> cyclic{};
   Camera camera;
   std::optional<MediumId> camera_medium;
   std::optional<TableReader> world_table, camera_table;
@@ -36,6 +38,8 @@ void read_media_and_world(TableReader& root, const GivenParts& given, ScenePlan&
   plan.world_table = root.table("world", "[world]");
   if (plan.world_table) {
     plan.world_medium = read_medium_name(*plan.world_table, "medium", names, kVacuum);
+    if (plan.world_table->has("cyclic"))
+      for (const std::string& axis : plan.world_table->words("cyclic", {"x", "y", "z"})) plan.cyclic[axis[0] - 'x'] = true;
     plan.world_table->finish();
   }
   if (media) plan.media = read_media(*media, names, given);
@@ -78,6 +82,8 @@ ScenePlan read_plan(TableReader& root, const Document& document, const GivenPart
   plan.shapes = read_shapes(shapes, {media, material_names, plan.world_medium, given}, plan.materials);
   std::vector<TableReader> lights = root.tables("lights", "[[lights]]");
   plan.lights = read_lights(lights);
+  std::vector<TableReader> detectors = root.tables("detectors", "[[detectors]]");
+  plan.detectors = read_detectors(detectors, media);
   read_camera_section(root, media, plan);
   job.settings = read_settings(root, document, facts_of(plan), left_out, job);
   root.finish();
@@ -102,7 +108,9 @@ SceneParts parts_of(ScenePlan& plan) {
   for (MaterialPlan& material : plan.materials) parts.materials.push_back(std::move(material.part));
   for (ShapePlan& shape : plan.shapes) parts.shapes.push_back(std::move(shape.part));
   for (LightPlan& light : plan.lights) parts.lights.push_back(std::move(light.part));
+  for (DetectorPlan& detector : plan.detectors) parts.detectors.push_back(std::move(detector.detector));
   parts.world_medium = plan.world_medium;
+  parts.cyclic = plan.cyclic;
   parts.camera = plan.camera;
   parts.camera_medium = plan.camera_medium;
   return parts;
@@ -118,6 +126,9 @@ SceneParts parts_of(ScenePlan& plan) {
     case PartKind::world:
       fail(*plan.world_table, "medium");
       break;
+    case PartKind::cyclic:
+      fail(*plan.world_table, "cyclic");
+      break;
     case PartKind::camera:
       fail(*plan.camera_table, "");
       break;
@@ -132,6 +143,9 @@ SceneParts parts_of(ScenePlan& plan) {
       break;
     case PartKind::light:
       fail(plan.lights[part.number].table, part.field);
+      break;
+    case PartKind::detector:
+      fail(plan.detectors[part.number].table, part.field);
       break;
     case PartKind::lights:
       fail(root, "lights");

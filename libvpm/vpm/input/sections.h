@@ -90,6 +90,14 @@ LightPart read_environment(TableReader& table);
 /// Reads [[lights]].
 std::vector<LightPlan> read_lights(std::vector<TableReader>& tables);
 
+/// A detector.
+struct DetectorPlan {
+  Detector detector;
+  TableReader table;
+};
+/// Reads [[detectors]]: those without a name are "detector 0" and so on, by their places.
+std::vector<DetectorPlan> read_detectors(std::vector<TableReader>& tables, const Names& media);
+
 /// Reads [camera] and [film].
 Camera read_camera(TableReader& camera, std::optional<TableReader>& film);
 

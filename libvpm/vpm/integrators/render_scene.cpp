@@ -59,6 +59,8 @@ Pass cut(Pass pass, const Camera& camera) {
 }  // namespace
 
 void validate(const RenderSettings& settings, const SceneFacts& facts) {
+  refuse_if(facts.cyclic, "world.cyclic", "a scene that repeats itself is for photons alone: it makes no picture",
+            "measure it, by vpm measure or vpm fluence, or leave out 'cyclic'");
   check_values(settings);
   check_strategy(settings, facts);
   const auto& [strategy, of_flights] = settings.distance;

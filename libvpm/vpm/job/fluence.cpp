@@ -9,10 +9,8 @@
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
-#include "vpm/base/settings/setting_error.h"
 #include "vpm/job/forecast.h"
 #include "vpm/photon/field_recorder.h"
-#include "vpm/photon/trace.h"
 
 namespace vpm {
 namespace {
@@ -45,14 +43,7 @@ struct FieldMoments {
 };
 
 void check(const RenderSettings& settings, const CellLattice& lattice) {
-  refuse_if(!strategy_info(settings.distance.strategy).analog, "integrator.distance.type",
-            "flights by '" + settings.distance.strategy + "' do not end as the transmittance says",
-            listed("these do", strategies_that(&StrategyInfo::analog)));
-  refuse_if(settings.importance.importons > 0, "integrator.importance.importons",
-            "fields are measured everywhere, and photons would be guided to what the camera sees",
-            "leave out 'importons'");
-  refuse_if(settings.photons.emitted == 0, "integrator.photons.emitted", "passes would have no end",
-            "say how many photons a pass emits");
+  check_photon_passes(settings);
   const double bytes = static_cast<double>(lattice.size()) * kBytesOfCell, most = 0.5 * physical_memory();
   if (bytes > most)
     throw InputError(
@@ -63,7 +54,7 @@ void check(const RenderSettings& settings, const CellLattice& lattice) {
 
 double mean_power(const Scene& scene) {
   double power = 0.0;
-  for (const Light& light : scene.lights) power += double{mean_channel(light_power(light, scene.bounds))};
+  for (const Light& light : scene.lights) power += double{mean_channel(light_power(light, entrance_of(scene, light)))};
   if (!(power > 0.0)) throw InputError("no light emits anything: fluence is 0 everywhere");
   return power;
 }
@@ -76,33 +67,22 @@ CellLattice about_cubes(const Box& box, int resolution) {
   return {box, glm::max(Vec3i(1), Vec3i(glm::round(extent / edge)))};
 }
 
-FluenceField measure_fluence(const Scene& scene, const RenderSettings& settings, const CellLattice& lattice, int passes,
-                             const PassProgress& progress) {
+FluenceField measure_fluence(const Scene& scene, const RenderSettings& settings, const CellLattice& lattice,
+                             const PhotonRun& run) {
   check(settings, lattice);
-  const auto emitted = static_cast<double>(settings.photons.emitted);
   FieldRecorder recorder(scene, lattice, mean_power(scene));
   FieldMoments fluence(lattice.size()), absorbed(lattice.size());
-  FluenceField field{lattice, passes, {}, {}, {}, {}, {}};
-  Progress bar("photons", settings.photons.emitted * static_cast<uint64_t>(passes), progress.stages);
-  for (int pass = 0; pass < passes; ++pass) {
-    TraceSettings trace;
-    trace.seed = settings.seed;
-    trace.pass = static_cast<uint64_t>(pass);
-    trace.emitted = settings.photons.emitted;
-    trace.max_events = settings.max_events;
-    trace.sequence = settings.photons.sequence;
-    const auto strategy = make_distance_strategy(settings.distance, {.pass = trace.pass, .density = false});
+  FluenceField field{lattice, {}, {}, {}, {}, {}};
+  field.run = run_photon_passes(scene, settings, run, recorder, [&](const Ledger& ledger, int pass) {
+    const double scale = 1.0 / (static_cast<double>(ledger.emitted_count) * lattice.volume());
+    fluence.add(recorder.lengths(), scale, pass);
+    absorbed.add(recorder.absorbed(), scale, pass);
     recorder.clear();
-    field.ledger.merge(trace_photons(scene, *strategy, trace, {&recorder}, bar));
-    const double scale = 1.0 / (emitted * lattice.volume());
-    fluence.add(recorder.lengths(), scale, pass + 1);
-    absorbed.add(recorder.absorbed(), scale, pass + 1);
-  }
-  bar.finish();
+  });
   field.fluence.assign(fluence.mean.begin(), fluence.mean.end());
   field.absorbed.assign(absorbed.mean.begin(), absorbed.mean.end());
-  field.fluence_error = fluence.errors(passes);
-  field.absorbed_error = absorbed.errors(passes);
+  field.fluence_error = fluence.errors(field.run.passes);
+  field.absorbed_error = absorbed.errors(field.run.passes);
   return field;
 }
 

@@ -4,11 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "vpm/film/pass.h"
-#include "vpm/integrators/settings.h"
+#include "vpm/job/photon_passes.h"
 #include "vpm/photon/cell_lattice.h"
-#include "vpm/photon/ledger.h"
-#include "vpm/scene/scene.h"
 
 namespace vpm {
 
@@ -16,8 +13,7 @@ namespace vpm {
 /// single pass.
 struct FluenceField {
   CellLattice lattice;
-  int passes = 0;
-  Ledger ledger;                       // of all passes
+  PhotonPasses run;
   std::vector<Rgb> fluence, absorbed;  // W/m^2, in media; W/m^3
   std::vector<Rgb> fluence_error, absorbed_error;
 };
@@ -25,11 +21,10 @@ struct FluenceField {
 /// A box in about cubes, `resolution` >= 1 along its longest edge.
 CellLattice about_cubes(const Box& box, int resolution);
 
-/// Traces so many passes of photons, as many as the settings emit, whatever the integrator. Throws SettingError where
-/// photons fly by another law than transmittance, or are guided, and InputError where the cells do not fit into the
+/// Traces passes of photons. Throws as check_photon_passes() does, and InputError where the cells do not fit into the
 /// memory of the machine, or where there is no light.
-FluenceField measure_fluence(const Scene& scene, const RenderSettings& settings, const CellLattice& lattice, int passes,
-                             const PassProgress& progress = {});
+FluenceField measure_fluence(const Scene& scene, const RenderSettings& settings, const CellLattice& lattice,
+                             const PhotonRun& run);
 
 /// Throws InputError where a file could not be written: an extension other than .npy, a missing folder.
 void check_field_file(const std::filesystem::path& path);

@@ -117,7 +117,7 @@ Json lights(const RenderJob& job) {
     all.push_back({{"number", i},
                    {"name", i < job.light_names.size() ? job.light_names[i] : ""},
                    {"kind", light_kind(scene.lights[i])},
-                   {"power_W", rgb(Rgbd(light_power(scene.lights[i], scene.bounds)))},
+                   {"power_W", rgb(Rgbd(light_power(scene.lights[i], entrance_of(scene, scene.lights[i]))))},
                    {"share", scene.light_probability[i]}});
   return all;
 }

@@ -38,7 +38,7 @@ struct ArrivingPhoton {
 
 /// Which kinds of events are reported to a recorder.
 struct RecordNeeds {
-  bool flights = true, collisions = true, hits = true, escapes = false;
+  bool flights = true, collisions = true, hits = true, escapes = false, ways = false;
 };
 
 /// Keeps what its owner needs of the photons of one pass. Photons are traced in chunks, and each chunk has its own
@@ -53,7 +53,7 @@ class PhotonRecorder {
   virtual void join(PhotonRecorder& part) = 0;
   /// The number of kept photons that count towards TraceSettings::stored.
   virtual size_t stored() const { return 0; }
-  /// Which of flew(), collided(), hit() and escaped() are called. It must not change while photons are traced.
+  /// Which of flew(), collided(), hit(), escaped() and travelled() are called. It must not change while photons are traced.
   virtual RecordNeeds needs() const { return {}; }
   /// From now on also keeps where each photon comes from, if it can.
   virtual void keep_histories() {}
@@ -65,6 +65,9 @@ class PhotonRecorder {
   /// A photon has flown through a medium on its way to an event of any kind, or up to it. Called for each medium on the
   /// way, before collided() and hit(), with the random numbers of the photon.
   virtual void flew(const Track&, const ArrivingPhoton&, Rng&) {}
+  /// A photon has come straight from `departed` to an event, or leaves the scene that way: flew() for all of the way at
+  /// once. `tracks` are its parts in media, if any recorder needs flights.
+  virtual void travelled(const ArrivingPhoton&, const std::vector<Track>& /*tracks*/) {}
   /// A photon collides in a medium. Called before absorption or scattering is drawn.
   virtual void collided(const ArrivingPhoton&) {}
   /// A photon meets a surface that is not just a boundary between media. Called before it scatters there.

@@ -40,6 +40,7 @@ class PhotonPath {
       if (needs.collisions) of_collisions_.push_back(recorder.get());
       if (needs.hits) of_hits_.push_back(recorder.get());
       if (needs.escapes) of_escapes_.push_back(recorder.get());
+      if (needs.ways) of_ways_.push_back(recorder.get());
     }
   }
 
@@ -104,6 +105,8 @@ class PhotonPath {
       weight_.meet(sum_channels(at_.state.throughput) / emitted_power_, at_.event);
       for (const Track& track : tracks_)
         for (PhotonRecorder* const recorder : of_flights_) recorder->flew(track, arriving(), rng);
+      if (ends_way())
+        for (PhotonRecorder* const recorder : of_ways_) recorder->travelled(arriving(), tracks_);
       arrive(rng);
       if (!alive_) return;
       split(rng);
@@ -121,7 +124,8 @@ class PhotonPath {
   /// What happens at the event.
   void go_on(Rng& rng) {
     alive_ = true;
-    if (at_.event.kind != EventKind::limit) at_.departed = at_.state.ray.origin;
+    if (at_.event.kind == EventKind::limit && scene_.period) cross_period();
+    if (ends_way()) at_.departed = at_.state.ray.origin;
     if (at_.event.kind == EventKind::collision) {
       at_.turn = {at_.state.ray.direction, at_.state.medium, at_.event.density};
       scatter_in(scene_.media[at_.state.medium], rng);
@@ -193,8 +197,18 @@ class PhotonPath {
     return settings_.split ? settings_.guide->worth(power, at_.state.ray.origin) : power / emitted_power_;
   }
 
-  /// How far the path may fly before it is worth a split.
+  /// Does the straight way of the path end at the event? It goes on behind a limit, unless that is a side of the period.
+  bool ends_way() const { return at_.event.kind != EventKind::limit || scene_.period; }
+
+  /// From a side of the period to the opposite one, where another medium may be.
+  void cross_period() {
+    scene_.period->cross(at_.state.ray);
+    at_.state.medium = medium_of_ray(scene_, kSeveralMedia, at_.state.ray);
+  }
+
+  /// How far the path may fly: to a side of the period, or before it is worth a split.
   float limit() const {
+    if (scene_.period) return scene_.period->to_side(at_.state.ray);
     if (!settings_.split) return kInfinity;
     return settings_.guide->rise(sum_channels(at_.state.throughput), at_.state.ray, kWorthSplitting);
   }
@@ -216,7 +230,7 @@ class PhotonPath {
   const PhotonNumbers& numbers_;
   PhotonNumbers::Lead lead_;
   Part& out_;
-  Recorders of_flights_, of_collisions_, of_hits_, of_escapes_;  // those of `out_` that record these
+  Recorders of_flights_, of_collisions_, of_hits_, of_escapes_, of_ways_;  // those of `out_` that record these
   const DirectionGuide* directions_ = nullptr;                   // null: scattering is not guided
   Branch at_;
   std::vector<Branch> waiting_;

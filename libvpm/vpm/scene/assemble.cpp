@@ -235,7 +235,23 @@ void add_lists(SceneParts& parts, AssembledScene& result) {
     for (const std::string& note : light.notes) result.notes.push_back("light '" + light.name + "': " + note);
   }
   scene.world_medium = parts.world_medium;
+  scene.cyclic = parts.cyclic;
+  scene.detectors = std::move(parts.detectors);
   scene.camera = parts.camera;
+}
+
+/// Lights of a scene that repeats itself lie within its period, or far along an axis that does not.
+void check_period(const Scene& scene) {
+  if (!scene.period) return;
+  for (const Light& light : scene.lights) {
+    const std::optional<LightPlace> place = light_place(light);
+    for (int a = 0; place && a < 3; ++a)
+      if (scene.period->repeats(a) &&
+          (place->bounds.lo[a] < scene.bounds.lo[a] || place->bounds.hi[a] > scene.bounds.hi[a]))
+        throw PartError({PartKind::cyclic},
+                        "a light reaches beyond the box around all shapes, which repeats itself along that axis",
+                        "move the light, or give the box the width of a period");
+  }
 }
 
 void check_contradictions(const Scene& scene, const Boxes& boxes) {
@@ -283,6 +299,7 @@ AssembledScene assemble(SceneParts parts) {
   } catch (const InputError& error) {
     throw PartError({PartKind::lights}, error.what());
   }
+  check_period(scene);
   check_contradictions(scene, boxes);
   check_faces(scene, boxes);
   for (std::string& note : notes_of(scene)) result.notes.push_back(std::move(note));

@@ -2,6 +2,7 @@
 #include "vpm/scene/check_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "vpm/base/overloads.h"
@@ -132,6 +133,89 @@ void check_lights(const SceneParts& parts) {
                     "add [[lights]], or a shape or a medium with emission");
 }
 
+void check_cyclic(const SceneParts& parts) {
+  const auto axes = std::count(parts.cyclic.begin(), parts.cyclic.end(), true);
+  if (axes == 0) return;
+  const auto refuse = [](const std::string& wrong, const std::string& right) {
+    throw PartError({PartKind::cyclic}, wrong, right);
+  };
+  if (parts.world_medium != kVacuum)
+    refuse("a medium that fills the world has no box to repeat", "name it as the 'inside' of a box");
+  for (const LightPart& part : parts.lights) {
+    if (!is_infinite(part.light)) continue;
+    const auto* const parallel = std::get_if<DirectionalLight>(&part.light);
+    if (!parallel)
+      refuse("an environment does not light a scene that repeats itself",
+             "let a quad as wide as the scene send the light: what it emits is even over all directions");
+    for (size_t a = 0; axes == 2 && a < 3; ++a)
+      if (!parts.cyclic[a] && parallel->direction[static_cast<int>(a)] == 0.0f)
+        refuse("parallel light along the axes that repeat themselves never enters", "give it another direction");
+    if (axes != 2)
+      refuse("light from infinity enters a scene that repeats itself along two axes, no more and no fewer",
+             "name two axes, such as [\"x\", \"z\"]");
+  }
+}
+
+void check_detector(const SceneParts& parts, size_t number) {
+  const Detector& detector = parts.detectors[number];
+  const auto refuse = [&](const char* field, const std::string& wrong) {
+    throw PartError({PartKind::detector, number, field}, wrong);
+  };
+  const auto positive = [&](float radius) {
+    if (!(radius > 0.0f && std::isfinite(radius))) refuse("radius", "its radius must be positive and finite");
+  };
+  const auto finite = [&](const char* field, const Vec3& value) {
+    if (!is_finite(value)) refuse(field, "must be finite");
+  };
+  const auto unit = [&](const Vec3& normal) {
+    constexpr float kRounding = 1e-4f;
+    if (!(std::abs(glm::length(normal) - 1.0f) < kRounding)) refuse("normal", "must be a unit vector");
+  };
+  std::visit(Overloads{[&](const PlaneDetector& plane) {
+                         finite("point", plane.point);
+                         unit(plane.normal);
+                       },
+                       [&](const DiscDetector& disc) {
+                         finite("center", disc.center);
+                         unit(disc.normal);
+                         positive(disc.radius);
+                       },
+                       [&](const QuadDetector& quad) {
+                         finite("corner", quad.corner);
+                         const Vec3d u(quad.edge_u), v(quad.edge_v);
+                         if (!(glm::length(glm::cross(u, v)) > 1e-6 * glm::length(u) * glm::length(v)))
+                           refuse("edge_v", "its edges are parallel, or one is zero");
+                         if (std::min(quad.cells[0], quad.cells[1]) < 1) refuse("cells", "must be 1 or more");
+                       },
+                       [&](const SphereDetector& sphere) {
+                         finite("center", sphere.center);
+                         positive(sphere.radius);
+                       },
+                       [&](const MediumDetector& of) {
+                         check_medium_number(parts, of.medium, {PartKind::detector, number, "medium"});
+                         if (of.medium == kVacuum) refuse("medium", "vacuum absorbs nothing");
+                       }},
+             detector.kind);
+  if (detector.angles < 1) refuse("angles", "must be 1 or more");
+}
+
+void check_detectors(const SceneParts& parts) {
+  constexpr size_t kMostBins = 100'000;  // each chunk of photons has its own
+  std::set<std::string> names;
+  size_t bins = 0;
+  for (size_t i = 0; i < parts.detectors.size(); ++i) {
+    check_detector(parts, i);
+    if (!names.insert(parts.detectors[i].name).second)
+      throw PartError({PartKind::detector, i, "name"}, "two detectors are named '" + parts.detectors[i].name + "'",
+                      "give each a name of its own");
+    bins += parts.detectors[i].bins();
+    if (bins > kMostBins)
+      throw PartError({PartKind::detector, i},
+                      "cells times angles of all detectors are more than " + std::to_string(kMostBins / 2),
+                      "count in fewer parts, or measure fluence in cells (vpm fluence)");
+  }
+}
+
 void check_camera(const SceneParts& parts) {
   const Camera& camera = parts.camera;
   const PartName part{PartKind::camera};
@@ -154,6 +238,8 @@ void check_parts(const SceneParts& parts) {
   check_materials(parts);
   check_shapes(parts);
   check_lights(parts);
+  check_cyclic(parts);
+  check_detectors(parts);
   check_camera(parts);
 }
 

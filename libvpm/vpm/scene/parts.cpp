@@ -12,6 +12,8 @@ std::string to_string(const PartName& part) {
       return "scene";
     case PartKind::world:
       return "world_medium";
+    case PartKind::cyclic:
+      return "cyclic";
     case PartKind::camera:
       return part.field.empty() ? "camera" : part.field;
     case PartKind::medium:
@@ -22,6 +24,8 @@ std::string to_string(const PartName& part) {
       return of_list("shapes");
     case PartKind::light:
       return of_list("lights");
+    case PartKind::detector:
+      return of_list("detectors");
     case PartKind::lights:
       return "lights";
   }

@@ -1,6 +1,7 @@
 // The parts of a scene as code gives them to assemble(), and how an error names the part it is about.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,12 +69,14 @@ struct SceneParts {
   std::vector<MaterialPart> materials;
   std::vector<ShapePart> shapes;
   std::vector<LightPart> lights;
-  MediumId world_medium = kVacuum;  // fills all space outside the shapes that separate media
+  std::vector<Detector> detectors;
+  MediumId world_medium = kVacuum;    // fills all space outside the shapes that separate media
+  std::array<bool, 3> cyclic{};       // along which axes the box around all shapes repeats itself
   Camera camera;
   std::optional<MediumId> camera_medium;  // nothing: what the shapes say is around the camera
 };
 
-enum class PartKind { scene, world, camera, medium, material, shape, light, lights };
+enum class PartKind { scene, world, cyclic, camera, medium, material, shape, light, lights, detector };
 
 /// Names a part: one of a list by its number, or the scene, its world, its camera or all lights.
 struct PartName {

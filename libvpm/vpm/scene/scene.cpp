@@ -43,6 +43,18 @@ Box wider_box(const Box& box) {
   return {box.lo - margin, box.hi + margin};
 }
 
+std::optional<Period> period_of(const Scene& scene) {
+  if (scene.cyclic == std::array<bool, 3>{}) return std::nullopt;
+  const Box shapes = scene.geometry.bounds();
+  Box box = scene.bounds;
+  for (int a = 0; a < 3; ++a)
+    if (scene.cyclic[static_cast<size_t>(a)]) {
+      box.lo[a] = shapes.lo[a];
+      box.hi[a] = shapes.hi[a];
+    }
+  return Period(box, scene.cyclic);
+}
+
 bool all_grey(const Scene& scene) {
   return std::all_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return is_grey(l); }) &&
          std::all_of(scene.media.begin(), scene.media.end(), [](const Medium& m) { return m.grey(); }) &&
@@ -50,11 +62,12 @@ bool all_grey(const Scene& scene) {
          std::all_of(scene.textures.begin(), scene.textures.end(), [](const auto& t) { return !t || t->grey(); });
 }
 
-std::vector<double> probability_by_power(const std::vector<Light>& lights, const Box& bounds) {
+std::vector<double> probability_by_power(const Scene& scene) {
   std::vector<double> power;
   double total = 0.0;
-  for (const Light& light : lights) total += power.emplace_back(mean_channel(light_power(light, bounds)));
-  if (lights.empty()) return {};
+  for (const Light& light : scene.lights)
+    total += power.emplace_back(mean_channel(light_power(light, entrance_of(scene, light))));
+  if (scene.lights.empty()) return {};
   if (!(total > 0.0) || std::isinf(total)) {
     throw InputError("lights: their power is " + std::to_string(total) + " W in all, it must be positive and finite");
   }
@@ -133,10 +146,11 @@ void finish(Scene& scene) {
   assert(scene.light_probability.empty() && scene.light_medium.empty());
   assert(scene.textures.size() <= scene.materials.size());
   scene.bounds = wider_box(scene.geometry.bounds());
+  scene.period = period_of(scene);
   scene.grey = all_grey(scene);
   for (Light& light : scene.lights)
     if (auto* volume = std::get_if<VolumeLight>(&light)) volume->power = power_inside(scene, *volume);
-  scene.light_probability = probability_by_power(scene.lights, scene.bounds);
+  scene.light_probability = probability_by_power(scene);
   for (Material& material : scene.materials)
     set_facet_loss(material, scene.facet_losses.emplace_back(facet_loss_of(material)).get());
   for (const Light& light : scene.lights) scene.light_medium.push_back(medium_of(scene, light));
@@ -144,6 +158,11 @@ void finish(Scene& scene) {
   for (size_t i = 0; i < scene.lights.size(); ++i)
     if (const auto* volume = std::get_if<VolumeLight>(&scene.lights[i]))
       scene.medium_light[static_cast<size_t>(volume->medium)] = static_cast<int>(i);
+}
+
+Box entrance_of(const Scene& scene, const Light& light) {
+  const auto* const parallel = std::get_if<DirectionalLight>(&light);
+  return scene.period && parallel ? scene.period->entrance(parallel->direction) : scene.bounds;
 }
 
 MediumId medium_at(const Scene& scene, const Vec3& point) {

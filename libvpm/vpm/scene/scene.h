@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "vpm/light/light.h"
 #include "vpm/medium/medium.h"
 #include "vpm/scene/camera.h"
+#include "vpm/scene/detector.h"
+#include "vpm/scene/period.h"
 #include "vpm/surface/geometry.h"
 #include "vpm/surface/material/facet_loss.h"
 #include "vpm/surface/material/material.h"
@@ -49,9 +52,12 @@ struct Scene {
   MediumId world_medium = kVacuum;  // fills all space outside the shapes that separate media
   Camera camera;
   MediumId camera_medium = kVacuum;  // kSeveralMedia where the camera stands on a boundary
+  std::vector<Detector> detectors;
+  std::array<bool, 3> cyclic{};  // along which axes the box around all shapes repeats itself: for photons alone
 
   // Derived by finish().
   Box bounds;                             // a little wider than all shapes; without any, 1 m about the origin
+  std::optional<Period> period;           // where it repeats itself
   bool grey = false;                      // one channel carries everything
   std::vector<double> light_probability;  // of emitting the next photon, by power; sums to 1
   std::vector<std::shared_ptr<const FacetLoss>> facet_losses;  // of materials of microfacets, which point to them
@@ -98,6 +104,9 @@ inline Layer layer_of(const Shape& shape, const Material& material) {
 /// Fills in what a scene derives from its parts. Call once, after all else is set and the geometry committed. Throws
 /// InputError where there are lights, but all of them black.
 void finish(Scene& scene);
+
+/// The box that light from infinity enters: the scene's, or a face of its period.
+Box entrance_of(const Scene& scene, const Light& light);
 
 /// The medium at a point that is not on a surface: what the nearest shape that separates media, along a fixed
 /// direction, has on the near side; the world's medium where there is none. Three directions vote, because one may run

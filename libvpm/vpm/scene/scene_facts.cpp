@@ -21,6 +21,7 @@ SceneFacts facts_of(const Scene& scene) {
   for (const Medium& medium : scene.media) facts.add(medium);
   if (scene.world_medium != kVacuum) facts.add_world(scene.media[scene.world_medium]);
   for (const Shape& shape : scene.shapes) facts.rough_surfaces |= is_rough(scene.materials[shape.material]);
+  facts.cyclic = scene.period.has_value();
   return facts;
 }
 

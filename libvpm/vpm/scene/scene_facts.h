@@ -12,6 +12,7 @@ struct SceneFacts {
   bool rough_surfaces = false;    // surfaces that store photons; mirrors and glass do not
   bool endless = false;           // the medium of the world, which scatters ...
   bool endless_flights = false;   // ... and does not attenuate one of the channels
+  bool cyclic = false;            // it repeats itself; of a finished scene
 
   void add(const Medium& medium);
   /// The medium of the world, once it is added as one of all.

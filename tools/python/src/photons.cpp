@@ -14,7 +14,9 @@
 #include "vpm/estimate/photon_queries.h"
 #include "vpm/integrators/photon_map/stored_photons.h"
 #include "vpm/job/fluence.h"
+#include "vpm/job/measurement.h"
 #include "vpm/job/photon_files.h"
+#include "vpm/study/slab_scene.h"
 
 namespace vpm::python {
 namespace {
@@ -81,8 +83,10 @@ py::array_t<T> array_of_vector(std::vector<T> values, std::vector<py::ssize_t> s
 }
 
 /// What collect(scene, settings) finds, once the job's settings are chosen.
+enum class Choosing { yes, no };  // of settings that a scene leaves out
 template <class Data, class Collect>
-std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed, Collect&& of) {
+std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed, Choosing choosing,
+                              Collect&& of) {
   std::shared_ptr<Data> data;
   auto raised = run_interruptibly([&] {
     std::optional<JobState> state;
@@ -92,7 +96,7 @@ std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optio
     }
     if (seed) state->settings.seed = *seed;
     with_job(*scene, *state, [&](RenderJob& job) {
-      choose(job);
+      if (choosing == Choosing::yes) choose(job);
       data = std::make_shared<Data>(of(job.scene, job.settings));
     });
   });
@@ -103,13 +107,15 @@ std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optio
 std::shared_ptr<StoredPhotons> photons_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
                                           int pass) {
   return collect<StoredPhotons>(
-      scene, seed, [&](const Scene& of, const RenderSettings& settings) { return stored_photons(of, settings, pass); });
+      scene, seed, Choosing::yes,
+      [&](const Scene& of, const RenderSettings& settings) { return stored_photons(of, settings, pass); });
 }
 
 std::shared_ptr<PhotonFlights> flights_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
                                           int pass) {
   return collect<PhotonFlights>(
-      scene, seed, [&](const Scene& of, const RenderSettings& settings) { return photon_flights(of, settings, pass); });
+      scene, seed, Choosing::yes,
+      [&](const Scene& of, const RenderSettings& settings) { return photon_flights(of, settings, pass); });
 }
 
 py::dict energy_of(const Ledger& ledger) {
@@ -126,6 +132,10 @@ py::dict energy_of(const Ledger& ledger) {
   return energy;
 }
 
+PhotonRun photon_run(int passes, const std::optional<double>& seconds) {
+  return {.until = {.passes = passes, .seconds = seconds.value_or(0.0)}};
+}
+
 using Corners = std::array<float, 6>;  // of a box, m
 using Count = std::array<int, 3>;
 
@@ -140,10 +150,56 @@ CellLattice lattice_of(const Scene& scene, const std::optional<Corners>& box, in
 
 std::shared_ptr<FluenceField> fluence_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
                                          const std::optional<Corners>& box, int resolution,
-                                         const std::optional<Count>& count, int passes) {
-  return collect<FluenceField>(scene, seed, [&](const Scene& of, const RenderSettings& settings) {
-    return measure_fluence(of, settings, lattice_of(of, box, resolution, count), passes);
+                                         const std::optional<Count>& count, int passes,
+                                         const std::optional<double>& seconds) {
+  const PhotonRun run = photon_run(passes, seconds);
+  return collect<FluenceField>(scene, seed, Choosing::no, [&](const Scene& of, const RenderSettings& settings) {
+    return measure_fluence(of, settings, lattice_of(of, box, resolution, count), run);
   });
+}
+
+/// A measurement, and what is exact where the scene is a slab.
+struct Measured {
+  Measurement measurement;
+  std::string json;
+  std::optional<std::array<exact::SlabSolution, 3>> slab{};
+};
+
+std::shared_ptr<Measured> measured_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed, int passes,
+                                      const std::optional<double>& seconds) {
+  const PhotonRun run = photon_run(passes, seconds);
+  return collect<Measured>(scene, seed, Choosing::no, [&](const Scene& of, const RenderSettings& settings) {
+    const std::optional<SlabScene> slab = slab_of(of);
+    std::vector<Detector> detectors = of.detectors;
+    if (slab) detectors.insert(detectors.end(), slab->faces.begin(), slab->faces.end());
+    Measured measured{measure(of, settings, detectors, run), {}};
+    measured.json = json_of(measured.measurement, of);
+    if (slab) measured.slab = solve(*slab);
+    return measured;
+  });
+}
+
+py::tuple channels_of(const Rgbd& value) { return py::make_tuple(value.r, value.g, value.b); }
+
+/// Three solutions' values and bounds: of each channel.
+py::tuple exact_of(const std::array<exact::SlabSolution, 3>& slab, exact::Bounded exact::SlabSolution::*value) {
+  return py::make_tuple((slab[0].*value).value, (slab[1].*value).value, (slab[2].*value).value);
+}
+
+py::object slab_dict(const Measured& measured) {
+  if (!measured.slab) return py::none();
+  const Measurement& m = measured.measurement;
+  const auto& faces = m.detectors;
+  const Rgbd emitted = m.emitted.mean();
+  py::dict slab;
+  const auto add = [&](const char* name, const ChannelMoments& power, exact::Bounded exact::SlabSolution::*value) {
+    slab[name] = py::make_tuple(channels_of(power.mean() / emitted), channels_of(power.standard_error() / emitted),
+                                exact_of(*measured.slab, value));
+  };
+  add("reflected", faces[faces.size() - 2].forward, &exact::SlabSolution::reflected);
+  add("transmitted", faces[faces.size() - 1].forward, &exact::SlabSolution::transmitted);
+  add("absorbed", m.absorbed_in_media, &exact::SlabSolution::absorbed);
+  return std::move(slab);
 }
 
 /// An array (nx, ny, nz, 3) of one of a field's quantities.
@@ -254,13 +310,18 @@ void bind_photons(py::module_& module) {
                                return py::make_tuple(py::make_tuple(lo.x, lo.y, lo.z),
                                                      py::make_tuple(hi.x, hi.y, hi.z));
                              })
-      .def_readonly("passes", &FluenceField::passes)
-      .def("energy", [](const FluenceField& field) { return energy_of(field.ledger); })
+      .def_property_readonly("passes", [](const FluenceField& field) { return field.run.passes; })
+      .def("energy", [](const FluenceField& field) { return energy_of(field.run.ledger); })
       .def("write", [](const FluenceField& field, const std::string& path) {
         const py::gil_scoped_release others_run;
         write_field(field, path);
       });
+  py::class_<Measured, std::shared_ptr<Measured>>(module, "Measured")
+      .def_readonly("json", &Measured::json)
+      .def_property_readonly("slab", &slab_dict)
+      .def("energy", [](const Measured& measured) { return energy_of(measured.measurement.run.ledger); });
   module.def("fluence", &fluence_of);
+  module.def("measure", &measured_of);
   module.def("stored_photons", &photons_of);
   module.def("photon_flights", &flights_of);
   module.def("photon_events", &names_of_photon_events);

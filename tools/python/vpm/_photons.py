@@ -1,6 +1,7 @@
 """Photons as arrays: those that a render stores, their flights, and photon maps of any photons."""
 from __future__ import annotations
 
+import json
 import os
 from typing import Any, Mapping
 
@@ -138,12 +139,13 @@ class Field:
 
 def fluence(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
             box: ArrayLike | None = None, cells: int | tuple[int, int, int] = 64, passes: int = 16,
-            seed: int | None = None) -> Field:
+            time: float | None = None, seed: int | None = None) -> Field:
     """Fluence and absorbed power inside media, whatever the integrator: by the lengths of photons' flights, and by
     their collisions. The same bits on any number of threads.
 
     box: its corners ((x0, y0, z0), (x1, y1, z1)), m; that of the scene unless given. cells: how many along its longest
-    edge, in about cubes; or along each axis. passes: how many, each of as many photons as the scene says.
+    edge, in about cubes; or along each axis. passes: how many, each of as many photons as the scene says; time: as many
+    as fit into so many seconds instead.
     """
     job, seed, _ = _asked(scene, overrides, seed, 0)
     corners = None
@@ -155,10 +157,74 @@ def fluence(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overri
     if np.shape(cells) not in ((), (3,)):
         raise InputError(f"cells: {cells} is neither a number nor one for each axis")
     count = None if np.ndim(cells) == 0 else tuple(_whole(n, "cells", 1, 100_000) for n in cells)
-    if cells is None or passes is None:
-        raise InputError("cells and passes are numbers, not None")
+    if cells is None:
+        raise InputError("cells: a number, not None")
     resolution = _whole(cells, "cells", 1, 4096) if count is None else 1
-    return Field(_vpm.fluence(job, seed, corners, resolution, count, _whole(passes, "passes", 1, 1_000_000_000)))
+    return Field(_vpm.fluence(job, seed, corners, resolution, count, *_until(passes, time)))
+
+
+class Reading:
+    """What one detector counted: power over passes, W, arrays of red, green, blue; and how many photons.
+
+    Of surfaces: forward (to the side that the normal points to; outwards of spheres) and backward, their standard
+    errors forward_error and backward_error (nan of a single pass), forward_count and backward_count; and the same in
+    parts, arrays (cells along edge_u, cells along edge_v, angles, 3): forward_parts, forward_parts_error, .... Parts of
+    angles are of equal solid angle, from the normal (or its opposite) on. Of media: absorbed, absorbed_error,
+    absorbed_count (of collisions).
+    """
+
+    def __init__(self, reading: Mapping[str, Any]):
+        self.name = reading["name"]
+        for side in ("forward", "backward", "absorbed"):
+            if side in reading:
+                self._add(side, reading[side])
+
+    def _add(self, side: str, found: Mapping[str, Any]) -> None:
+        setattr(self, side, np.array(found["power_W"], float))
+        setattr(self, side + "_error", np.array(found["standard_error_W"], float))
+        setattr(self, side + "_count", found["count"])
+        parts = found.get("parts", [])
+        if parts:
+            last = parts[-1]["cell"]
+            shape = (last[0] + 1, last[1] + 1, -1, 3)
+            for name, key in ((side + "_parts", "power_W"), (side + "_parts_error", "standard_error_W")):
+                setattr(self, name, np.array([part[key] for part in parts], float).reshape(shape))
+
+    def __repr__(self) -> str:
+        return f"Reading({self.name!r})"
+
+
+class Measurement:
+    """Readings by name: measurement["top"].forward; and the energy of all photons, W.
+
+    passes, photons: how many there were. emitted, absorbed_in_media, absorbed_on_surfaces, escaped: W, pairs of the
+    value and its standard error. slab: where the scene is a plane layer under parallel light along its normal, a dict
+    of "reflected", "transmitted" and "absorbed", each the shares of the light, their standard errors, and the exact
+    ones; else None.
+    """
+
+    def __init__(self, measured: _vpm.Measured):
+        found = json.loads(measured.json)
+        self.passes, self.photons = found["passes"], found["photons"]
+        self.readings = [Reading(reading) for reading in found["detectors"]]
+        for name in ("emitted", "absorbed_in_media", "absorbed_on_surfaces", "escaped"):
+            flux = found[name]
+            setattr(self, name, (np.array(flux["power_W"], float), np.array(flux["standard_error_W"], float)))
+        self.slab = measured.slab
+
+    def __getitem__(self, name: str) -> Reading:
+        names = [reading.name for reading in self.readings]
+        return self.readings[_number(name, names, "detector")]
+
+    def __repr__(self) -> str:
+        return f"Measurement({', '.join(reading.name for reading in self.readings)}; {self.passes} passes)"
+
+
+def measure(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
+            passes: int = 16, time: float | None = None, seed: int | None = None) -> Measurement:
+    """Counts the power that passes the scene's detectors, as `vpm measure` does. passes, time: as of `fluence`."""
+    job, seed, _ = _asked(scene, overrides, seed, 0)
+    return Measurement(_vpm.measure(job, seed, *_until(passes, time)))
 
 
 class PhotonMap:
@@ -230,6 +296,14 @@ class PhotonMap:
         return self._map.estimate(points, _radius(radius), kernel,
                                   None if normals is None else _unit(normals, "normals", len(points)),
                                   None if directions is None else _unit(directions, "directions", len(points)), g)
+
+
+def _until(passes: Any, time: Any) -> tuple[int, float | None]:
+    if time is not None and not (np.isfinite(time) and time > 0):
+        raise InputError(f"time: {time} is not a number of seconds above 0")
+    if passes is None:
+        raise InputError("passes: a number, not None")
+    return _whole(passes, "passes", 1, 1_000_000_000) or 1, time
 
 
 def _asked(scene: Any, overrides: Overrides, seed: int | None, number: int) -> tuple[_vpm.Job, int | None, int]:

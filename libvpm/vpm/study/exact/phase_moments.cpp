@@ -5,7 +5,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "vpm/base/overloads.h"
 #include "vpm/base/vec.h"
+#include "vpm/study/exact/quadrature.h"
 
 namespace vpm::exact {
 
@@ -43,6 +45,42 @@ PhaseMoments mixed_moments(const PhaseMoments& a, const PhaseMoments& b, double 
   for (size_t l = 0; l < a.size(); ++l) moments[l] += first * a[l];
   for (size_t l = 0; l < b.size(); ++l) moments[l] += (1.0 - first) * b[l];
   return moments;
+}
+
+PhaseMoments table_moments(const PhaseTable& table) {
+  constexpr size_t kMost = 2000;
+  constexpr double kNegligible = 1e-8, kStep = 1.0 / PhaseTable::kCells;
+  static const GaussRule rule = gauss_legendre(4);
+  PhaseMoments moments(kMost, 0.0);
+  for (int cell = 0; cell < PhaseTable::kCells; ++cell)
+    for (size_t k = 0; k < rule.nodes.size(); ++k) {
+      const double s = (cell + rule.nodes[k]) * kStep, x = 1.0 - 2.0 * s * s;
+      const double share = rule.weights[k] * kStep * 8.0 * kPiD * s * double{table.value(static_cast<float>(s))};
+      double p = 1.0, before = 0.0;
+      for (size_t l = 0; l < kMost; ++l) {
+        moments[l] += share * p;
+        const double n = static_cast<double>(l), next = ((2.0 * n + 1.0) * x * p - n * before) / (n + 1.0);
+        before = p;
+        p = next;
+      }
+    }
+  for (size_t l = kMost; l-- > 0;) moments[l] /= moments[0];
+  while (moments.size() > 1 && std::fabs(moments.back()) < kNegligible) moments.pop_back();
+  return moments;
+}
+
+PhaseMoments moments_of(const Phase& phase) {
+  const auto of_lobe = [](const HenyeyGreenstein& lobe) { return henyey_greenstein_moments(double{lobe.g}); };
+  const auto of_draine = [](const Draine& lobe) { return draine_moments(double{lobe.g}, double{lobe.alpha}); };
+  return std::visit(
+      Overloads{[](const Isotropic&) { return isotropic_moments(); }, [](const Rayleigh&) { return rayleigh_moments(); },
+                of_lobe, of_draine,
+                [&](const TwoLobes& both) { return mixed_moments(of_lobe(both.a), of_lobe(both.b), double{both.first}); },
+                [&](const Droplets& both) {
+                  return mixed_moments(of_lobe(both.a), of_draine(both.b), double{both.first});
+                },
+                [](const Tabulated& of) { return table_moments(*of.table); }},
+      phase);
 }
 
 namespace {

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "vpm/medium/phase/phase.h"
+
 namespace vpm::exact {
 
 /// chi_l = int p(cos) P_l(cos) dOmega for l = 0, 1, ...: chi_0 = 1, chi_1 is the mean cosine. Further moments are 0.
@@ -17,6 +19,10 @@ PhaseMoments rayleigh_moments();
 PhaseMoments draine_moments(double g, double alpha);
 /// Of two phase functions, the first with the share `first`.
 PhaseMoments mixed_moments(const PhaseMoments& a, const PhaseMoments& b, double first);
+/// Up to the order from which on they are below 1e-8, 2000 at the most.
+PhaseMoments table_moments(const PhaseTable& table);
+/// Of a medium's phase function, whose lobes have |g| <= 0.9999.
+PhaseMoments moments_of(const Phase& phase);
 
 // Phase functions with forward peaks too narrow for a number of ordinates: what is cut off passes for unscattered
 // light, and comes back where light that scattered once is seen.
