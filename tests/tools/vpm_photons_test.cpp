@@ -62,7 +62,7 @@ TEST_F(VpmPhotons, FillCells) {
   EXPECT_EQ(read("a.npy").size(), 128u + 8 * 8 * 8 * 4 * 3 * 4);
   vpm_succeeds({"fluence", "room.toml", "-o", "b.npy", "--box", "0", "0", "0", "1", "0.5", "1", "--resolution", "4"});
   EXPECT_EQ(read("b.npy").size(), 128u + 4 * 2 * 4 * 4 * 3 * 4);
-  vpm_refuses({"fluence", "room.toml", "-o", "a.vdb"}, {"fields are written as .npy"});
+  vpm_refuses({"fluence", "room.toml", "-o", "a.txt"}, {"fields are written as .npy or .vdb"});
   vpm_refuses({"fluence", "room.toml", "--box", "0", "0", "0", "1", "0", "1"}, {"--box"});
   vpm_refuses({"fluence", "room.toml", "--resolution", "4096"}, {"cells take", "ask for fewer"});
   vpm_refuses({"fluence", "room.toml", "--set", "integrator.importance.importons=100"}, {"photons would be guided"});

@@ -135,7 +135,15 @@ void add_view(CLI::App& app, ViewOptions& options) {
   const std::map<std::string, UpAxis> axes{{"y", UpAxis::y}, {"z", UpAxis::z}};
   command->add_option("--up", options.wishes.up, "Axis that is up: y (default), or z")
       ->transform(CLI::CheckedTransformer(axes));
-  command->add_option("--scene", options.scene_output, "Also write the scene that is made, for editing (.toml)");
+  CLI::Option* scene =
+      command->add_option("--scene", options.scene_output, "Also write the scene that is made, for editing (.toml)");
+  CLI::Option* slice =
+      command->add_option("--slice", options.slice,
+                          "Draw a slice across an axis, x, y or z, with a scale of its values, instead: y=0.25 (m), or "
+                          "y for the middle. Default output: FILE.svg");
+  slice->check(check_slice)->excludes(scene);
+  for (const char* other : {"--passes", "--time", "--error", "--size", "--spp", "--crop", "--optical-depth"})
+    slice->excludes(command->get_option(other));
 }
 
 void add_merge(CLI::App& app, MergeOptions& options) {
@@ -220,14 +228,15 @@ void add_fluence(CLI::App& app, FluenceOptions& options) {
   CLI::App* command =
       app.add_subcommand("fluence", "Measure fluence and absorbed power inside media, in the cells of a box");
   command->footer(
-      "Example: vpm fluence scenes/fog_room.toml -o room.npy --resolution 32 writes an array of numpy's: fluence in "
-      "W/m^2, absorbed power in W/m^3, and their standard errors.");
+      "Example: vpm fluence scenes/fog_room.toml -o room.vdb --resolution 32 writes grids: fluence in W/m^2, absorbed "
+      "power in W/m^3, and their standard errors.");
   add_scene(command, options.scene);
-  add_scene_options(command, options, "File to write (.npy); default: SCENE.fluence.npy");
+  add_scene_options(command, options, "File to write (.npy or .vdb); default: SCENE.fluence.npy");
   command->add_option("--box", options.box, "Corners x0 y0 z0 x1 y1 z1, m; default: the box of the scene")->expected(6);
   command->add_option("--resolution", options.resolution, "Cells along the longest edge of the box")
       ->check(whole_number(1, 4096))
       ->capture_default_str();
+  command->add_flag("--flux", options.flux, "Net flux, too, W/m^2 along x, y and z");
   add_count_options(command, options);
 }
 

@@ -60,8 +60,10 @@ int render_command(const RenderOptions& options);
 struct ViewOptions : RenderOptions {  // `scene` is a .vdb, and `automatic` is not asked
   ViewWishes wishes;
   std::string scene_output;  // .toml, for the scene that is made; empty: none
+  std::string slice;         // "y=0.25": a drawing of a slice in the place of a picture; empty: none
 };
-/// Makes a scene around a grid, shows a first picture of it at once, and renders it as render_command() does.
+/// Makes a scene around a grid, shows a first picture of it at once, and renders it as render_command() does. Or draws
+/// a slice of the grid.
 int view_command(const ViewOptions& options);
 
 struct MergeOptions {
@@ -114,9 +116,10 @@ struct CountOptions : SceneOptions {
   std::optional<double> seconds;  // in the place of passes
 };
 
-struct FluenceOptions : CountOptions {  // to a .npy
+struct FluenceOptions : CountOptions {  // to a .npy or .vdb
   std::vector<float> box;               // x0, y0, z0, x1, y1, z1, m; empty: the scene's
   int resolution = 64;                  // cells along its longest edge
+  bool flux = false;                    // net flux, too
 };
 /// Writes the fluence and the absorbed power in the cells of a box.
 int fluence_command(const FluenceOptions& options);

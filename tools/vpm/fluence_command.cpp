@@ -9,6 +9,7 @@
 #include "vpm/base/cancel.h"
 #include "vpm/base/error.h"
 #include "vpm/base/parallel.h"
+#include "vpm/input/grid/field_file.h"
 #include "vpm/input/scene_file.h"
 #include "vpm/job/fluence.h"
 #include "vpm/job/messages.h"
@@ -41,7 +42,7 @@ int fluence_command(const FluenceOptions& options) {
   const CancelScope scope(stop_on_signals());
   const FluenceField field =
       measure_fluence(job.scene, job.settings, about_cubes(box_of(options, job.scene), options.resolution),
-                      photon_run(options));
+                      photon_run(options), options.flux);
   write_field(field, output);
   print_warnings(warnings_of(field.run.ledger));
   if (std::all_of(field.fluence.begin(), field.fluence.end(), [](const Rgb& fluence) { return is_black(fluence); }))

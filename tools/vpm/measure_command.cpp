@@ -12,7 +12,7 @@
 #include "vpm/input/scene_file.h"
 #include "vpm/job/measurement.h"
 #include "vpm/job/messages.h"
-#include "vpm/study/slab_scene.h"
+#include "vpm/study/exact/slab_scene.h"
 
 namespace vpm::tools {
 namespace {

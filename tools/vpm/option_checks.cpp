@@ -11,6 +11,8 @@
 #include <sstream>
 #include <vector>
 
+#include "slice_picture.h"
+
 namespace vpm::tools {
 namespace {
 
@@ -59,6 +61,15 @@ std::string check_error(const std::string& text) {
 std::string check_depth(const std::string& text) {
   const double depth = parse(text, 0.0);
   return depth > 0.0 && std::isfinite(depth) ? "" : fmt::format("{} is not an optical depth above 0", text);
+}
+
+std::string check_slice(const std::string& text) {
+  try {
+    slice_wish(text);
+    return "";
+  } catch (const std::exception&) {
+    return fmt::format("{} is no slice: an axis, x, y or z, or one with a place in m, such as y=0.25", text);
+  }
 }
 
 std::string check_film_size(const std::string& text) {

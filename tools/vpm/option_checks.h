@@ -14,6 +14,7 @@ std::string check_seconds(const std::string& text);     // above 0
 std::string check_stops(const std::string& text);       // of an exposure
 std::string check_error(const std::string& text);       // a relative MSE above 0
 std::string check_depth(const std::string& text);       // an optical depth above 0
+std::string check_slice(const std::string& text);       // "y" or "y=0.25", of slice_wish()
 std::string check_film_size(const std::string& text);   // "640x480", pixels
 std::string check_crop(const std::string& text);        // "x0,y0,x1,y1", pixels
 std::string check_pass_range(const std::string& text);  // "64:128", numbers of passes

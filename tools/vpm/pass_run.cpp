@@ -97,11 +97,4 @@ PhotonRun photon_run(const CountOptions& options) {
   return {{.passes = options.passes, .seconds = options.seconds.value_or(0.0)}, clock_of_process(), options.progress};
 }
 
-void refuse_automatic(const RenderJob& job, const std::string& command) {
-  if (!job.automatic.keys.empty())
-    throw InputError(fmt::format(
-        "{} chooses no settings: name a value of {} where it is \"auto\"; vpm render prints those that it chooses",
-        command, fmt::join(job.automatic.to_be_named(), ", ")));
-}
-
 }  // namespace vpm::tools

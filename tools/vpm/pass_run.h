@@ -37,9 +37,6 @@ void apply_options(const PassOptions& options, RenderSettings& settings);
 /// How photons are counted pass by pass.
 PhotonRun photon_run(const CountOptions& options);
 
-/// Throws InputError where a setting is "auto", for a command that chooses none.
-void refuse_automatic(const RenderJob& job, const std::string& command);
-
 /// What a user should know before the run; on stderr, so that it is seen.
 void print_notes(const RenderJob& job);
 /// What went wrong without stopping the run; on stderr, too.

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "pass_run.h"
 #include "picture_run.h"
+#include "slice_picture.h"
 #include "this_process.h"
 #include "vpm/base/atomic_file.h"
 #include "vpm/base/cancel.h"
@@ -100,10 +101,24 @@ void show_first_picture(const ViewOptions& options, const Outputs& outputs, cons
   write_preview(outputs, options.exposure, *first, without_fire(job.scene, *first));
 }
 
+int draw_slice(const ViewOptions& options) {
+  const fs::path output = options.output.empty() ? fs::path(options.scene).stem().string() + ".svg" : options.output;
+  if (output.extension() != ".svg") throw InputError(fmt::format("{}: slices are drawn as .svg", output.string()));
+  check_writable(output, 0);
+  const std::string name = grid_to_show(options.scene, list_headings(options.scene), options.wishes.grid);
+  const LoadedGrid loaded = load_grid({.path = options.scene, .name = name, .interpolation = Interpolation::nearest});
+  const std::string title = name + " of " + fs::path(options.scene).filename().string();
+  write_text(output, slice_drawing(*loaded.grid, slice_wish(options.slice), title, unit_of_grid(name)));
+  for (const std::string& note : loaded.notes) fmt::print(stderr, "note: {}\n", note);
+  fmt::print("{}\n", output.string());
+  return 0;
+}
+
 }  // namespace
 
 int view_command(const ViewOptions& options) {
   set_threads(options.threads);
+  if (!options.slice.empty()) return draw_slice(options);
   const Outputs outputs = output_paths(options.output, fs::path(options.scene).stem().string());
   const std::string name = scene_name(options);
   const ViewScene made = make_scene(options);

@@ -32,6 +32,16 @@ float linear_of_srgb(int byte) {
   return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
+/// A picture that is to be written, of three bytes to a pixel.
+png_image rgb_picture(int width, int height) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(width);
+  png.height = static_cast<png_uint_32>(height);
+  png.format = PNG_FORMAT_RGB;
+  return png;
+}
+
 /// An open picture; frees what libpng holds on every way out.
 struct OpenPng {
   png_image png{};
@@ -118,16 +128,23 @@ size_t write_png(const std::filesystem::path& path, const Image& radiance, float
   }
 
   TemporaryFile file(path);
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(radiance.width);
-  png.height = static_cast<png_uint_32>(radiance.height);
-  png.format = PNG_FORMAT_RGB;
+  png_image png = rgb_picture(radiance.width, radiance.height);
   if (!png_image_write_to_file(&png, file.path().c_str(), 0, bytes.data(), 0, nullptr)) {
     throw InputError("cannot write '" + path.string() + "': " + png.message);
   }
   file.commit();
   return broken;
+}
+
+std::vector<uint8_t> png_of(int width, int height, const std::vector<uint8_t>& rgb) {
+  png_image png = rgb_picture(width, height);
+  png_alloc_size_t size = 0;
+  std::vector<uint8_t> file;
+  if (png_image_write_to_memory(&png, nullptr, &size, 0, rgb.data(), 0, nullptr)) {
+    file.resize(size);
+    if (png_image_write_to_memory(&png, file.data(), &size, 0, rgb.data(), 0, nullptr)) return file;
+  }
+  throw InputError(std::string("cannot make a PNG picture: ") + png.message);
 }
 
 float auto_exposure(const Image& radiance) {

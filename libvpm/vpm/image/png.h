@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "vpm/image/image.h"
 
@@ -12,6 +14,9 @@ namespace vpm {
 /// with a non-finite channel are drawn magenta; returns their number. Equal pictures give equal bytes. The file appears
 /// whole or not at all; throws InputError where it cannot be written.
 size_t write_png(const std::filesystem::path& path, const Image& radiance, float exposure);
+
+/// The bytes of a PNG file of these, three for each pixel, by the sRGB curve, row by row from the top.
+std::vector<uint8_t> png_of(int width, int height, const std::vector<uint8_t>& rgb);
 
 /// What the bytes of a PNG file stand for: the sRGB curve [IEC1999] of linear values, or these themselves, over 255.
 enum class PngValues { srgb, linear };

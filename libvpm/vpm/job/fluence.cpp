@@ -16,7 +16,7 @@ namespace vpm {
 namespace {
 
 constexpr size_t kCellChunk = 1 << 14;
-constexpr size_t kBytesOfCell = 12 * sizeof(double) + 6 * sizeof(int64_t) + 4 * sizeof(Rgb);
+constexpr size_t kBytesOfQuantity = 6 * sizeof(double) + 3 * sizeof(int64_t) + 2 * sizeof(Rgb);  // in each cell
 
 /// Of one quantity over passes, by cell.
 struct FieldMoments {
@@ -42,9 +42,10 @@ struct FieldMoments {
   }
 };
 
-void check(const RenderSettings& settings, const CellLattice& lattice) {
+void check(const RenderSettings& settings, const CellLattice& lattice, bool flux) {
   check_photon_passes(settings);
-  const double bytes = static_cast<double>(lattice.size()) * kBytesOfCell, most = 0.5 * physical_memory();
+  const double bytes = static_cast<double>(lattice.size() * kBytesOfQuantity * (flux ? 5 : 2)),
+               most = 0.5 * physical_memory();
   if (bytes > most)
     throw InputError(
         fmt::format("{} x {} x {} cells take {:.3g} GB, and half of this machine's memory is {:.3g} GB: "
@@ -68,34 +69,39 @@ CellLattice about_cubes(const Box& box, int resolution) {
 }
 
 FluenceField measure_fluence(const Scene& scene, const RenderSettings& settings, const CellLattice& lattice,
-                             const PhotonRun& run) {
-  check(settings, lattice);
-  FieldRecorder recorder(scene, lattice, mean_power(scene));
+                             const PhotonRun& run, bool flux) {
+  check(settings, lattice, flux);
+  FieldRecorder recorder(scene, lattice, mean_power(scene), flux);
   FieldMoments fluence(lattice.size()), absorbed(lattice.size());
-  FluenceField field{lattice, {}, {}, {}, {}, {}};
+  std::vector<FieldMoments> along(flux ? 3 : 0, FieldMoments(lattice.size()));
+  FluenceField field;
+  field.lattice = lattice;
+  field.grey = scene.grey;
   field.run = run_photon_passes(scene, settings, run, recorder, [&](const Ledger& ledger, int pass) {
     const double scale = 1.0 / (static_cast<double>(ledger.emitted_count) * lattice.volume());
     fluence.add(recorder.lengths(), scale, pass);
     absorbed.add(recorder.absorbed(), scale, pass);
+    for (size_t a = 0; a < along.size(); ++a) along[a].add(*recorder.along()[a], scale, pass);
     recorder.clear();
   });
-  field.fluence.assign(fluence.mean.begin(), fluence.mean.end());
-  field.absorbed.assign(absorbed.mean.begin(), absorbed.mean.end());
-  field.fluence_error = fluence.errors(field.run.passes);
-  field.absorbed_error = absorbed.errors(field.run.passes);
+  const auto take = [&](const FieldMoments& moments, std::vector<Rgb>& values, std::vector<Rgb>& errors) {
+    values.assign(moments.mean.begin(), moments.mean.end());
+    errors = moments.errors(field.run.passes);
+  };
+  take(fluence, field.fluence, field.fluence_error);
+  take(absorbed, field.absorbed, field.absorbed_error);
+  for (size_t a = 0; a < along.size(); ++a) take(along[a], field.flux[a], field.flux_error[a]);
   return field;
 }
 
-void check_field_file(const std::filesystem::path& path) {
-  if (path.extension() != ".npy") throw InputError(fmt::format("{}: fields are written as .npy", path.string()));
-  check_writable(path, 0);
-}
-
-void write_field(const FluenceField& field, const std::filesystem::path& path) {
-  check_field_file(path);
+void write_npy(const FluenceField& field, const std::filesystem::path& path) {
+  std::vector<const std::vector<Rgb>*> rows{&field.fluence, &field.fluence_error, &field.absorbed,
+                                            &field.absorbed_error};
+  for (size_t a = 0; a < 3 && !field.flux[a].empty(); ++a)
+    rows.insert(rows.end(), {&field.flux[a], &field.flux_error[a]});
   const Vec3i& count = field.lattice.count;
-  std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}, 4, 3), }}", count.x,
-                                   count.y, count.z);
+  std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}, {}, 3), }}",
+                                   count.x, count.y, count.z, rows.size());
   constexpr size_t kBefore = 10, kAligned = 64;  // bytes: of magic number, version and length; the format's own
   header.append(kAligned - 1 - (kBefore + header.size()) % kAligned, ' ');
   header += '\n';
@@ -104,8 +110,7 @@ void write_field(const FluenceField& field, const std::filesystem::path& path) {
   bytes += static_cast<char>(header.size() >> 8);
   bytes += header;
   for (size_t cell = 0; cell < field.lattice.size(); ++cell)
-    for (const auto* values : {&field.fluence, &field.fluence_error, &field.absorbed, &field.absorbed_error})
-      bytes.append(reinterpret_cast<const char*>(&(*values)[cell]), sizeof(Rgb));
+    for (const auto* row : rows) bytes.append(reinterpret_cast<const char*>(&(*row)[cell]), sizeof(Rgb));
   write_text(path, bytes);
 }
 

@@ -1,6 +1,7 @@
 // Fields inside media: fluence and absorbed power in the cells of a box, in passes, with standard errors.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -14,8 +15,10 @@ namespace vpm {
 struct FluenceField {
   CellLattice lattice;
   PhotonPasses run;
+  bool grey = false;                   // the channels of the scene are the same
   std::vector<Rgb> fluence, absorbed;  // W/m^2, in media; W/m^3
   std::vector<Rgb> fluence_error, absorbed_error;
+  std::array<std::vector<Rgb>, 3> flux, flux_error;  // net flux along x, y and z in media, W/m^2; empty: not asked for
 };
 
 /// A box in about cubes, `resolution` >= 1 along its longest edge.
@@ -24,12 +27,11 @@ CellLattice about_cubes(const Box& box, int resolution);
 /// Traces passes of photons. Throws as check_photon_passes() does, and InputError where the cells do not fit into the
 /// memory of the machine, or where there is no light.
 FluenceField measure_fluence(const Scene& scene, const RenderSettings& settings, const CellLattice& lattice,
-                             const PhotonRun& run);
+                             const PhotonRun& run, bool flux = false);
 
-/// Throws InputError where a file could not be written: an extension other than .npy, a missing folder.
-void check_field_file(const std::filesystem::path& path);
 /// Writes an array of numpy's of shape (x, y, z, 4, 3) and type float32: of each cell fluence, its error, absorbed
-/// power and its error, each in three channels.
-void write_field(const FluenceField& field, const std::filesystem::path& path);
+/// power and its error, each in three channels. With flux it is (x, y, z, 10, 3): those along x, y and z, each with its
+/// error, come behind.
+void write_npy(const FluenceField& field, const std::filesystem::path& path);
 
 }  // namespace vpm

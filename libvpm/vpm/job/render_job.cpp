@@ -112,6 +112,13 @@ void choose_again(RenderJob& job, std::vector<Choice> choices) {
   if (!job.automatic.keys.empty()) note_choices(job);
 }
 
+void refuse_automatic(const RenderJob& job, const std::string& command) {
+  if (!job.automatic.keys.empty())
+    throw InputError(fmt::format(
+        "{} chooses no settings: name a value of {} where it is \"auto\"; vpm render prints those that it chooses",
+        command, fmt::join(job.automatic.to_be_named(), ", ")));
+}
+
 void check_not_read(const std::filesystem::path& path, const RenderJob& job) {
   std::vector<std::string> read = job.files;
   read.push_back(job.source);

@@ -58,6 +58,9 @@ void choose_default_radii(RenderJob& job);
 /// InputError as set_chosen().
 void choose_again(RenderJob& job, std::vector<Choice> choices);
 
+/// Throws InputError where a setting is "auto", for a command that chooses none.
+void refuse_automatic(const RenderJob& job, const std::string& command);
+
 /// Throws InputError where writing to `path` would replace a file that the scene is read from.
 void check_not_read(const std::filesystem::path& path, const RenderJob& job);
 

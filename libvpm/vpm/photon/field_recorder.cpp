@@ -38,12 +38,14 @@ constexpr double kFine = 0x1p-30;  // of a photon's power
 
 }  // namespace
 
-FieldRecorder::FieldRecorder(const Scene& scene, const CellLattice& lattice, double photon_power)
-    : scene_(scene),
-      lattice_(lattice),
-      lengths_(std::make_shared<CellSums>(
-          lattice.size(), kFine * photon_power * std::max({lattice.edges().x, lattice.edges().y, lattice.edges().z}))),
-      absorbed_(std::make_shared<CellSums>(lattice.size(), kFine * photon_power)) {}
+FieldRecorder::FieldRecorder(const Scene& scene, const CellLattice& lattice, double photon_power, bool flux)
+    : scene_(scene), lattice_(lattice), absorbed_(std::make_shared<CellSums>(lattice.size(), kFine * photon_power)) {
+  const Vec3d edges = lattice.edges();
+  const double unit = kFine * photon_power * std::max({edges.x, edges.y, edges.z});
+  lengths_ = std::make_shared<CellSums>(lattice.size(), unit);
+  if (!flux) return;
+  for (std::shared_ptr<CellSums>& axis : along_) axis = std::make_shared<CellSums>(lattice.size(), unit);
+}
 
 void FieldRecorder::flew(const Track& track, const ArrivingPhoton&, Rng& rng) {
   const Medium& medium = scene_.media[track.medium];
@@ -55,7 +57,10 @@ void FieldRecorder::flew(const Track& track, const ArrivingPhoton&, Rng& rng) {
       const double integral = density_integral(medium, track.ray, {0.0f, t}).value;
       power *= analog_weight(medium, channel_shares(track.throughput), integral, false);
     }
-    lengths_->add(cell, Rgbd(power) * (t1 - t0));
+    const Rgbd length = Rgbd(power) * (t1 - t0);
+    lengths_->add(cell, length);
+    for (size_t a = 0; a < 3 && along_[a]; ++a)
+      along_[a]->add(cell, static_cast<double>(track.ray.direction[static_cast<int>(a)]) * length);
   });
 }
 
@@ -70,6 +75,8 @@ void FieldRecorder::collided(const ArrivingPhoton& photon) {
 void FieldRecorder::clear() {
   lengths_->clear();
   absorbed_->clear();
+  for (const std::shared_ptr<CellSums>& axis : along_)
+    if (axis) axis->clear();
 }
 
 }  // namespace vpm

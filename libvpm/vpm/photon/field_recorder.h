@@ -4,6 +4,7 @@
 // the same on any number of threads.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -31,14 +32,14 @@ class CellSums {
   double unit_;
 };
 
-/// Records the lengths of flights in media times their power, W m [Spanier1969], and the power that collisions absorb,
-/// W, of all photons in the cells of a lattice. Flights must be drawn from the media's own transmittance. Where a
+/// Records the lengths of flights in media times their power, W m [Spanier1969], the power that collisions absorb, W,
+/// and where it is asked for the lengths times power along each axis, of all photons in the cells of a lattice. Flights must be drawn from the media's own transmittance. Where a
 /// medium is chromatic the power at a place on a flight is that which the flight would have there: one place in each
 /// cell is drawn.
 class FieldRecorder final : public PhotonRecorder {
  public:
   /// `photon_power`, W, > 0, is what a photon carries: sums are as exact as 2^-30 of it.
-  FieldRecorder(const Scene& scene, const CellLattice& lattice, double photon_power);
+  FieldRecorder(const Scene& scene, const CellLattice& lattice, double photon_power, bool flux);
 
   std::unique_ptr<PhotonRecorder> part() const override { return std::make_unique<FieldRecorder>(*this); }
   void join(PhotonRecorder&) override {}
@@ -48,12 +49,16 @@ class FieldRecorder final : public PhotonRecorder {
 
   const CellSums& lengths() const { return *lengths_; }
   const CellSums& absorbed() const { return *absorbed_; }
+  /// Of x, y and z; null where flux is not recorded.
+  const std::array<std::shared_ptr<CellSums>, 3>& along() const { return along_; }
   void clear();
 
  private:
   const Scene& scene_;
   CellLattice lattice_;
-  std::shared_ptr<CellSums> lengths_, absorbed_;  // of all parts
+  // Of all parts:
+  std::shared_ptr<CellSums> lengths_, absorbed_;
+  std::array<std::shared_ptr<CellSums>, 3> along_;
 };
 
 }  // namespace vpm

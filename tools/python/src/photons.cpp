@@ -13,10 +13,11 @@
 #include "vpm/base/error.h"
 #include "vpm/estimate/photon_queries.h"
 #include "vpm/integrators/photon_map/stored_photons.h"
+#include "vpm/input/grid/field_file.h"
 #include "vpm/job/fluence.h"
 #include "vpm/job/measurement.h"
 #include "vpm/job/photon_files.h"
-#include "vpm/study/slab_scene.h"
+#include "vpm/study/exact/slab_scene.h"
 
 namespace vpm::python {
 namespace {
@@ -82,10 +83,11 @@ py::array_t<T> array_of_vector(std::vector<T> values, std::vector<py::ssize_t> s
   return py::array_t<T>(std::move(shape), owned->data(), owner);
 }
 
-/// What collect(scene, settings) finds, once the job's settings are chosen.
-enum class Choosing { yes, no };  // of settings that a scene leaves out
+/// What collect(scene, settings) finds, once the job's settings are chosen; or where they are given, for what is not
+/// a render.
+enum class Settings { chosen, given };
 template <class Data, class Collect>
-std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed, Choosing choosing,
+std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed, Settings which,
                               Collect&& of) {
   std::shared_ptr<Data> data;
   auto raised = run_interruptibly([&] {
@@ -96,7 +98,10 @@ std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optio
     }
     if (seed) state->settings.seed = *seed;
     with_job(*scene, *state, [&](RenderJob& job) {
-      if (choosing == Choosing::yes) choose(job);
+      if (which == Settings::chosen)
+        choose(job);
+      else
+        refuse_automatic(job, "this");
       data = std::make_shared<Data>(of(job.scene, job.settings));
     });
   });
@@ -107,14 +112,14 @@ std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optio
 std::shared_ptr<StoredPhotons> photons_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
                                           int pass) {
   return collect<StoredPhotons>(
-      scene, seed, Choosing::yes,
+      scene, seed, Settings::chosen,
       [&](const Scene& of, const RenderSettings& settings) { return stored_photons(of, settings, pass); });
 }
 
 std::shared_ptr<PhotonFlights> flights_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
                                           int pass) {
   return collect<PhotonFlights>(
-      scene, seed, Choosing::yes,
+      scene, seed, Settings::chosen,
       [&](const Scene& of, const RenderSettings& settings) { return photon_flights(of, settings, pass); });
 }
 
@@ -151,10 +156,10 @@ CellLattice lattice_of(const Scene& scene, const std::optional<Corners>& box, in
 std::shared_ptr<FluenceField> fluence_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
                                          const std::optional<Corners>& box, int resolution,
                                          const std::optional<Count>& count, int passes,
-                                         const std::optional<double>& seconds) {
+                                         const std::optional<double>& seconds, bool flux) {
   const PhotonRun run = photon_run(passes, seconds);
-  return collect<FluenceField>(scene, seed, Choosing::no, [&](const Scene& of, const RenderSettings& settings) {
-    return measure_fluence(of, settings, lattice_of(of, box, resolution, count), run);
+  return collect<FluenceField>(scene, seed, Settings::given, [&](const Scene& of, const RenderSettings& settings) {
+    return measure_fluence(of, settings, lattice_of(of, box, resolution, count), run, flux);
   });
 }
 
@@ -168,7 +173,7 @@ struct Measured {
 std::shared_ptr<Measured> measured_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed, int passes,
                                       const std::optional<double>& seconds) {
   const PhotonRun run = photon_run(passes, seconds);
-  return collect<Measured>(scene, seed, Choosing::no, [&](const Scene& of, const RenderSettings& settings) {
+  return collect<Measured>(scene, seed, Settings::given, [&](const Scene& of, const RenderSettings& settings) {
     const std::optional<SlabScene> slab = slab_of(of);
     std::vector<Detector> detectors = of.detectors;
     if (slab) detectors.insert(detectors.end(), slab->faces.begin(), slab->faces.end());
@@ -210,6 +215,17 @@ py::array field_array(const py::object& self, std::vector<Rgb> FluenceField::*va
                            self);
   array.attr("flags").attr("writeable") = false;
   return array;
+}
+
+/// An array (3, nx, ny, nz, 3) of what is along each axis; none where flux was not asked for.
+py::object flux_array(const FluenceField& field, const std::array<std::vector<Rgb>, 3>& along) {
+  if (along[0].empty()) return py::none();
+  const Vec3i& count = field.lattice.count;
+  py::array_t<float> array({3, count.x, count.y, count.z, 3});
+  float* to = array.mutable_data();
+  for (const std::vector<Rgb>& axis : along)
+    to = std::copy_n(reinterpret_cast<const float*>(axis.data()), 3 * axis.size(), to);
+  return std::move(array);
 }
 
 /// The rows of an array (n, 3), read where they are.
@@ -304,6 +320,8 @@ void bind_photons(py::module_& module) {
       .def("fluence_error", [](const py::object& self) { return field_array(self, &FluenceField::fluence_error); })
       .def("absorbed", [](const py::object& self) { return field_array(self, &FluenceField::absorbed); })
       .def("absorbed_error", [](const py::object& self) { return field_array(self, &FluenceField::absorbed_error); })
+      .def("flux", [](const FluenceField& field) { return flux_array(field, field.flux); })
+      .def("flux_error", [](const FluenceField& field) { return flux_array(field, field.flux_error); })
       .def_property_readonly("box",
                              [](const FluenceField& field) {
                                const auto& [lo, hi] = field.lattice.box;

@@ -110,14 +110,16 @@ class Field:
     """Fluence and absorbed power inside the media of a scene, in the cells of a box: means over passes and cells.
 
     fluence (W/m^2, of the part of a cell where there is a medium, over the whole cell), absorbed (W/m^3), and their
-    standard errors fluence_error and absorbed_error (nan of a single pass): read-only arrays (nx, ny, nz, 3). box: the
-    corners, m. passes: how many. energy: where the power of all photons went, W, as of `Photons`.
+    standard errors fluence_error and absorbed_error (nan of a single pass): read-only arrays (nx, ny, nz, 3). flux and
+    flux_error: net flux along x, y and z, W/m^2, in media as fluence is: arrays (3, nx, ny, nz, 3), None unless asked
+    for. box: the corners, m. passes: how many. energy: where the power of all photons went, W, as of `Photons`.
     """
 
     def __init__(self, field: _vpm.FluenceField):
         self._field = field
         self.fluence, self.fluence_error = field.fluence(), field.fluence_error()
         self.absorbed, self.absorbed_error = field.absorbed(), field.absorbed_error()
+        self.flux, self.flux_error = field.flux(), field.flux_error()
         self.box, self.passes, self.energy = field.box, field.passes, field.energy()
 
     @property
@@ -130,7 +132,7 @@ class Field:
         return [lo + (np.arange(n) + 0.5) * (hi - lo) / n for lo, hi, n in zip(*self.box, self.fluence.shape)]
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes the .npy file that `vpm fluence` writes: an array (nx, ny, nz, 4, 3)."""
+        """Writes the .npy or .vdb file that `vpm fluence` writes."""
         self._field.write(os.fspath(path))
 
     def __repr__(self) -> str:
@@ -139,13 +141,13 @@ class Field:
 
 def fluence(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
             box: ArrayLike | None = None, cells: int | tuple[int, int, int] = 64, passes: int = 16,
-            time: float | None = None, seed: int | None = None) -> Field:
+            time: float | None = None, flux: bool = False, seed: int | None = None) -> Field:
     """Fluence and absorbed power inside media, whatever the integrator: by the lengths of photons' flights, and by
     their collisions. The same bits on any number of threads.
 
     box: its corners ((x0, y0, z0), (x1, y1, z1)), m; that of the scene unless given. cells: how many along its longest
     edge, in about cubes; or along each axis. passes: how many, each of as many photons as the scene says; time: as many
-    as fit into so many seconds instead.
+    as fit into so many seconds instead. flux: net flux, too.
     """
     job, seed, _ = _asked(scene, overrides, seed, 0)
     corners = None
@@ -160,7 +162,7 @@ def fluence(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overri
     if cells is None:
         raise InputError("cells: a number, not None")
     resolution = _whole(cells, "cells", 1, 4096) if count is None else 1
-    return Field(_vpm.fluence(job, seed, corners, resolution, count, *_until(passes, time)))
+    return Field(_vpm.fluence(job, seed, corners, resolution, count, *_until(passes, time), bool(flux)))
 
 
 class Reading:

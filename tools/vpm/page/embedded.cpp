@@ -11,7 +11,17 @@
 namespace vpm::tools {
 namespace {
 
-/// Bytes as text [Josefsson2006, sec. 4].
+/// JSON that ends no element of HTML: it has '<' in texts only, where an escape stands for it as well.
+std::string inside_html(const std::string& json) {
+  std::string safe;
+  safe.reserve(json.size());
+  for (const char c : json) c == '<' ? safe += "\\u003c" : safe += c;
+  return safe;
+}
+
+}  // namespace
+
+// [Josefsson2006, sec. 4]
 std::string base64(const std::vector<uint8_t>& bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -24,16 +34,6 @@ std::string base64(const std::vector<uint8_t>& bytes) {
   }
   return text;
 }
-
-/// JSON that ends no element of HTML: it has '<' in texts only, where an escape stands for it as well.
-std::string inside_html(const std::string& json) {
-  std::string safe;
-  safe.reserve(json.size());
-  for (const char c : json) c == '<' ? safe += "\\u003c" : safe += c;
-  return safe;
-}
-
-}  // namespace
 
 Json picture_json(const Image& image) {
   const HalfPixels pixels = to_half(image);

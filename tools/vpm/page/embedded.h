@@ -2,8 +2,10 @@
 // data in pages: JSON in the places that a template has for it, pictures as text.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "json.h"
 #include "vpm/image/image.h"
@@ -15,6 +17,9 @@ std::string_view compare_template();
 
 /// HTML, with @report@ and @pictures@, in this order, where JSON belongs.
 std::string_view report_template();
+
+/// Bytes as text.
+std::string base64(const std::vector<uint8_t>& bytes);
 
 /// A picture as half floats, 8 bytes of text to a pixel: what to_half() makes of it, its halves with the lower byte
 /// first and as base64.

@@ -4,14 +4,11 @@
 #include <fmt/format.h>
 #include <openvdb/tools/Prune.h>
 #include <algorithm>
-#include <fstream>
 
-#include "vpm/base/atomic_file.h"
 #include "vpm/base/error.h"
-#include "vpm/base/fnv.h"
 #include "vpm/base/parallel.h"
 #include "vpm/input/grid/vdb_grid.h"
-#include "vpm/input/grid/vdb_layout.h"
+#include "vpm/input/grid/vdb_write.h"
 #include "vpm/medium/grid/procedural.h"
 
 namespace vpm {
@@ -82,34 +79,6 @@ openvdb::GridPtrVec sample_all(const std::string& name, int resolution) {
   return grids;
 }
 
-void write_file(const openvdb::GridPtrVec& grids, const std::string& path) {
-  openvdb::io::File file(path);
-  file.write(grids);
-}
-
-/// Replaces the random number of a file by one that follows from its other bytes.
-void fix_unique_number(const std::string& path) {
-  constexpr std::streamoff kPlace = 21;  // after magic number, format, library version and the flag for offsets
-  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
-  std::string number = "00000000-0000-0000-0000-000000000000";
-  file.seekg(kPlace + static_cast<std::streamoff>(number.size()));
-  Fnv1a hash;
-  hash.add(file);
-  const std::string digits = hash.digits();
-  number.replace(0, 8, digits.substr(0, 8));
-  number.replace(24, 8, digits.substr(8));
-  file.clear();
-  file.seekp(kPlace);
-  file << number << std::flush;
-  if (!file) throw InputError(fmt::format("{}: cannot be written", path));
-}
-
-/// Throws InputError unless the file is whole: a full disk shows here.
-void check_written(const std::string& path) {
-  VdbCursor cursor(path);
-  read_vdb_layout(cursor);
-}
-
 /// The values other than 0.
 openvdb::FloatGrid::Ptr sparse_grid(const GridValues& values) {
   const auto grid = new_grid<openvdb::FloatGrid>();
@@ -119,28 +88,10 @@ openvdb::FloatGrid::Ptr sparse_grid(const GridValues& values) {
       for (p.z = 0; p.z < values.count.z; ++p.z)
         if (const float value = values.at(p); value != 0.0f) accessor.setValue({p.x, p.y, p.z}, value);
   openvdb::tools::prune(grid->tree());
-  openvdb::math::Mat4d rows;  // acts on rows, where ours acts on columns: its memory is the same
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) rows[i][j] = values.index_to_world[i][j];
-  grid->setTransform(openvdb::math::Transform::createLinearTransform(rows));
+  grid->setTransform(transform_of(values.index_to_world));
   grid->setName("density");
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   return grid;
-}
-
-/// Writes the grid that `make` makes. The file appears whole or not at all.
-template <class Make>
-void write_whole(Make&& make, const std::string& path) {
-  TemporaryFile file(path);
-  try {
-    openvdb::initialize();
-    write_file(make(), file.path());
-    fix_unique_number(file.path());
-  } catch (const std::exception& e) {
-    throw InputError(fmt::format("{}: cannot be written: {}", path, e.what()));
-  }
-  check_written(file.path());
-  file.commit();
 }
 
 }  // namespace
@@ -149,11 +100,11 @@ void write_media_grid(const std::string& name, int resolution, const std::string
   check_field(name);
   if (resolution < 2 || resolution > 2048)
     throw InputError(fmt::format("resolution {}: must lie between 2 and 2048", resolution));
-  write_whole([&] { return sample_all(name, resolution); }, path);
+  write_vdb([&] { return sample_all(name, resolution); }, path);
 }
 
 void write_grid(const GridValues& values, const std::string& path) {
-  write_whole([&] { return openvdb::GridPtrVec{sparse_grid(values)}; }, path);
+  write_vdb([&] { return openvdb::GridPtrVec{sparse_grid(values)}; }, path);
 }
 
 }  // namespace vpm

@@ -1,5 +1,5 @@
 // What makes a scene a slab.
-#include "vpm/study/slab_scene.h"
+#include "vpm/study/exact/slab_scene.h"
 
 #include <algorithm>
 #include <cmath>
