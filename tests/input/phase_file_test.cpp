@@ -26,6 +26,24 @@ TEST(PhaseFile, TakesCommasSpacesAndAHeading) {
   }
 }
 
+TEST(PhaseFile, TakesCosinesAndFallingPlaces) {
+  const auto of_degrees = load_phase_table(file_of("0,9\n60,3\n90,2\n180,1\n"));
+  for (const char* text : {"180,1\n90,2\n60,3\n0,9\n", "mu,p\n-1,1\n0,2\n0.5,3\n1,9\n", "1,9\n0.5,3\n0,2\n-1,1\n"}) {
+    const auto table = load_phase_table(file_of(text));
+    EXPECT_NEAR(table->total(), of_degrees->total(), 1e-9) << text;
+    for (const float s : {0.0f, 0.3f, 0.6f, 0.9f}) EXPECT_NEAR(table->value(s), of_degrees->value(s), 1e-7f) << text;
+  }
+}
+
+TEST(PhaseFile, ThreeColumnsBecomeTheMeanOfNormalisedOnes) {
+  const auto mean = load_phase_table(file_of("0,1,0,3\n180,1,4,3\n"));
+  const auto back = load_phase_table(file_of("0,0\n180,1\n"));
+  EXPECT_EQ(mean->columns(), 3);
+  EXPECT_NEAR(mean->total(), 1.0, 1e-12);
+  for (const float s : {0.1f, 0.5f, 0.9f})
+    EXPECT_NEAR(mean->value(s), (2.0f / (4.0f * kPi) + back->value(s)) / 3.0f, 1e-7f);
+}
+
 TEST(PhaseFile, RefusesWithFileAndLine) {
   const auto refused = [](const std::string& text, const std::string& why) {
     try {
@@ -36,7 +54,10 @@ TEST(PhaseFile, RefusesWithFileAndLine) {
     }
   };
   refused("0,1\n90,x\n180,1\n", "phase.csv:2: a line of a phase function is an angle");
-  refused("0,1,2,3\n180,1,2,3\n", "phase.csv:1: ");
+  refused("0,1,2\n180,1,2\n", "phase.csv:1: ");
+  refused("0,1,2,3\n90,1\n180,1,2,3\n", "phase.csv:2: ");
+  refused("-1,1\n2,1\n1,1\n", "2 stands among cosines");
+  refused("-1,1\n0.5,1\n0.2,1\n1,1\n", "the angles of a phase function rise");
   refused("0,1\n180,1\n200,1\n", "go from 0 to 180 degrees, not from 0 to 200");
   refused("0,1\n90,-1\n180,1\n", "at 90 degrees is -1");
   refused("a,b\nc,d\n", "phase.csv:2: ");

@@ -149,6 +149,14 @@ TEST(SceneFile, RefusesBadOptions) {
       {"=3", "--set =3: the path '' has an empty key"},
       {"render.pases=3", "--set render.pases=3: unknown key 'pases' in [render]\ndid you mean 'passes'?"},
       {"rendr.passes=3", "--set rendr.passes=3: unknown key 'rendr' in the scene file\ndid you mean 'render'?"},
+      {"render.passes=.5",
+       "--set render.passes=.5: '.5' is no TOML value\nnumbers have a digit before the point, as 0.5; texts in lists "
+       "and tables stand in quotes; keys and values "
+       "are parted by '='"},
+      {"camera.fov={a = .5}",
+       "--set camera.fov={a = .5}: '{a = .5}' is no TOML value\nnumbers have a digit before the point, as 0.5; texts "
+       "in lists and tables stand in quotes; keys and values "
+       "are parted by '='"},
       {"render.passes=many", "--set render.passes=many: 'passes' of [render] must be an integer, not 'many'"},
       {"render.passes=0", "--set render.passes=0: 'passes' of [render] must be from 1"},
       {"shapes.2.radius=3",

@@ -65,7 +65,8 @@ TEST_F(VpmPhotons, FillCells) {
   vpm_refuses({"fluence", "room.toml", "-o", "a.txt"}, {"fields are written as .npy or .vdb"});
   vpm_refuses({"fluence", "room.toml", "--box", "0", "0", "0", "1", "0", "1"}, {"--box"});
   vpm_refuses({"fluence", "room.toml", "--resolution", "4096"}, {"cells take", "ask for fewer"});
-  vpm_refuses({"fluence", "room.toml", "--set", "integrator.importance.importons=100"}, {"photons would be guided"});
+  vpm_refuses({"fluence", "room.toml", "--set", "integrator.importance.importons=100"},
+              {"would be guided to what the camera sees"});
 }
 
 TEST_F(VpmPhotons, WrongWishesAreRefused) {

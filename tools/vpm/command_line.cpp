@@ -212,11 +212,10 @@ void add_photons(CLI::App& app, PhotonsOptions& options) {
 }
 
 void add_count_options(CLI::App* command, CountOptions& options) {
-  CLI::Option* passes = command
-                            ->add_option("--passes", options.passes,
-                                         "Passes to average, of as many photons as the scene says")
-                            ->check(whole_number(1, 1'000'000'000))
-                            ->capture_default_str();
+  CLI::Option* passes =
+      command->add_option("--passes", options.passes, "Passes to average, of as many photons as the scene says")
+          ->check(whole_number(1, 1'000'000'000))
+          ->capture_default_str();
   command
       ->add_option("--time", options.seconds,
                    "Passes until so many seconds from the start of the process are over, as far as they fit")
@@ -247,7 +246,7 @@ void add_measure(CLI::App& app, MeasureOptions& options) {
       "Example: vpm measure scenes/slab.toml --time 10 prints what a slab reflects, transmits and absorbs, beside the "
       "exact values.");
   add_scene(command, options.scene);
-  add_scene_options(command, options, "File to write (.json), besides");
+  add_scene_options(command, options, "File to write besides (.json, or .html as a page)");
   command->add_flag("--json", options.json, "Print JSON");
   add_count_options(command, options);
 }

@@ -124,7 +124,7 @@ struct FluenceOptions : CountOptions {  // to a .npy or .vdb
 /// Writes the fluence and the absorbed power in the cells of a box.
 int fluence_command(const FluenceOptions& options);
 
-struct MeasureOptions : CountOptions {  // to a .json; where no output is named, to none
+struct MeasureOptions : CountOptions {  // to a .json or .html; where no output is named, to none
   bool json = false;                    // print JSON
 };
 /// Counts the power that passes a scene's detectors, beside what is exact of a slab.

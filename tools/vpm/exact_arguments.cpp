@@ -105,6 +105,12 @@ std::string ExactArguments::word(const std::string& key, const std::vector<std::
   return value;
 }
 
+std::string ExactArguments::path(const std::string& key) {
+  const std::string& value = text(key);
+  if (value.empty()) refuse(key, "is missing: name a file");
+  return value;
+}
+
 void ExactArguments::expect_all_read() const {
   for (const std::string& name : given_)
     if (std::none_of(read_.begin(), read_.end(), [&](const auto& v) { return v.first == name; }))

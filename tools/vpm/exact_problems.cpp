@@ -8,6 +8,7 @@
 
 #include "vpm/base/error.h"
 #include "vpm/base/vec.h"
+#include "vpm/input/phase_file.h"
 #include "vpm/medium/phase/phase.h"
 #include "vpm/study/exact/airlight.h"
 #include "vpm/study/exact/point_source.h"
@@ -31,12 +32,13 @@ constexpr ExactLimits kMeanCosine{-0.999, 0.999};  // beyond, it takes thousands
 
 const ExactKey kAlbedoKey{"albedo", "single scattering albedo, 0 to 1", "1"};
 const std::vector<ExactKey> kPhaseKeys{
-    {"phase", "hg (Henyey-Greenstein), isotropic, rayleigh, draine, two-lobes or droplets", "hg"},
+    {"phase", "hg (Henyey-Greenstein), isotropic, rayleigh, draine, two-lobes, droplets or table", "hg"},
     {"g", "of phase=hg, draine, and the first of two-lobes, -0.999 to 0.999", "0"},
     {"alpha", "of phase=draine, 0 to 10000", "0"},
     {"g2", "of the second of phase=two-lobes, -0.999 to 0.999", "0"},
     {"share", "that the first of phase=two-lobes scatters, 0 to 1", "0.5"},
-    {"diameter", "of phase=droplets, micrometres, 5 to 50", "10"}};
+    {"diameter", "of phase=droplets, micrometres, 5 to 50", "10"},
+    {"table", "of phase=table: a file of angles and values, as scenes have it", ""}};
 
 std::vector<std::optional<double>> optionals(const std::vector<double>& values) {
   return {values.begin(), values.end()};
@@ -59,14 +61,12 @@ ExactQuantity closed_form(const std::string& name, const std::string& unit, cons
 }
 
 PhaseMoments read_phase(ExactArguments& arguments) {
-  const std::string phase = arguments.word("phase", {"hg", "isotropic", "rayleigh", "draine", "two-lobes", "droplets"});
+  const std::string phase =
+      arguments.word("phase", {"hg", "isotropic", "rayleigh", "draine", "two-lobes", "droplets", "table"});
   if (phase == "isotropic") return isotropic_moments();
   if (phase == "rayleigh") return rayleigh_moments();
-  if (phase == "droplets") {
-    const Droplets droplets(static_cast<float>(arguments.number("diameter", {5.0, 50.0})));
-    return mixed_moments(henyey_greenstein_moments(droplets.a.g), draine_moments(droplets.b.g, droplets.b.alpha),
-                         droplets.first);
-  }
+  if (phase == "table") return table_moments(*load_phase_table(arguments.path("table")));
+  if (phase == "droplets") return moments_of(Droplets(static_cast<float>(arguments.number("diameter", {5.0, 50.0}))));
   const double g = arguments.number("g", kMeanCosine);
   if (phase == "draine") return draine_moments(g, arguments.number("alpha", {0.0, 1e4}));
   if (phase == "two-lobes")

@@ -31,6 +31,8 @@ class ExactArguments {
   /// Numbers separated by commas; none where the key is not given.
   std::vector<double> list(const std::string& key, const ExactLimits& limits = {});
   std::string word(const std::string& key, const std::vector<std::string>& words);
+  /// The name of a file, which must be given.
+  std::string path(const std::string& key);
   [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 
   /// Refuses keys that were given and not read: they mean nothing with the others given.

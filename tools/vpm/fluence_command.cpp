@@ -18,7 +18,7 @@ namespace vpm::tools {
 namespace {
 
 Box box_of(const FluenceOptions& options, const Scene& scene) {
-  if (options.box.empty()) return scene.bounds;
+  if (options.box.empty()) return default_field_box(scene);
   const std::vector<float>& b = options.box;
   const Box box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
   const Vec3 extent = box.extent();
@@ -51,9 +51,9 @@ int fluence_command(const FluenceOptions& options) {
   const double photons = static_cast<double>(field.run.ledger.emitted_count), volume = field.lattice.volume();
   Rgbd absorbed(0.0);
   for (const Rgb& power : field.absorbed) absorbed += volume * Rgbd(power);
-  fmt::print("{}: {} x {} x {} cells of the box ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m, {}\n",
-             output.string(), field.lattice.count.x, field.lattice.count.y, field.lattice.count.z, lo.x, lo.y, lo.z,
-             hi.x, hi.y, hi.z, passes_text(field.run.passes));
+  fmt::print("{}: {} x {} x {} cells of the box ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m, {}\n", output.string(),
+             field.lattice.count.x, field.lattice.count.y, field.lattice.count.z, lo.x, lo.y, lo.z, hi.x, hi.y, hi.z,
+             passes_text(field.run.passes));
   const Rgbd all = field.run.ledger.absorbed_in_media / photons;
   fmt::print("  absorbed in it ({:.6g}, {:.6g}, {:.6g}) W, in all media ({:.6g}, {:.6g}, {:.6g}) W\n", absorbed.r,
              absorbed.g, absorbed.b, all.r, all.g, all.b);

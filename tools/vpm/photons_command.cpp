@@ -56,6 +56,10 @@ int photons_command(const PhotonsOptions& options) {
   const StoredPhotons stored = stored_photons(job.scene, job.settings, options.pass, progress);
   write_photons(stored, output);
   print_warnings(warnings_of(stored.ledger));
+  if (stored.photons.empty())
+    print_warnings(
+        {"no photons are stored: maps store those in media that scatter and on surfaces that are neither "
+         "mirrors nor smooth glass; --paths writes all flights"});
   fmt::print("{}: {} stored photons of {} emitted\n", output.string(), stored.photons.size(), stored.emitted);
   print_photons(stored);
   return 0;

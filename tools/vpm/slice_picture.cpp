@@ -87,8 +87,8 @@ std::string scale_of(double x, double top, double height, float largest, const s
   }
   for (int k = 0; k <= kNumbers; ++k)
     svg += fmt::format("<text x='{:.1f}' y='{:.1f}'>{:.3g}{}</text>\n", x + kWide + 6.0,
-                       top + height * (kNumbers - k) / kNumbers + 4.0,
-                       static_cast<double>(largest) * k / kNumbers, k == kNumbers ? " " + escaped(unit) : "");
+                       top + height * (kNumbers - k) / kNumbers + 4.0, static_cast<double>(largest) * k / kNumbers,
+                       k == kNumbers ? " " + escaped(unit) : "");
   return svg;
 }
 
@@ -114,7 +114,7 @@ std::string slice_drawing(const DensityGrid& grid, const SliceWish& wish, const 
     throw InputError(fmt::format("--slice {}={:g}: the grid goes from {:g} to {:g} m", kAxes[axis], at, lo, hi));
   const Raster raster = raster_of(grid, box, axis, at);
   const auto [right, up] = axes_across(axis);
-  constexpr double kLonger = 480.0, kMargin = 64.0, kScale = 150.0;
+  constexpr double kLonger = 480.0, kMargin = 88.0, kScale = 150.0;
   const double one = kLonger / std::max(raster.width, raster.height), width = one * raster.width,
                height = std::max(120.0, one * raster.height);
   std::string svg = fmt::format(
@@ -132,8 +132,8 @@ std::string slice_drawing(const DensityGrid& grid, const SliceWish& wish, const 
                      box.lo[right]);
   svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{:.4g}</text>\n", kMargin + width, bottom + 18.0,
                      box.hi[right]);
-  svg += fmt::format("<text x='{}' y='{:.1f}' text-anchor='end'>{} = {:.4g}</text>\n", kMargin - 6.0, bottom,
-                     kAxes[up], box.lo[up]);
+  svg += fmt::format("<text x='{}' y='{:.1f}' text-anchor='end'>{} = {:.4g}</text>\n", kMargin - 6.0, bottom, kAxes[up],
+                     box.lo[up]);
   svg += fmt::format("<text x='{}' y='50' text-anchor='end'>{:.4g}</text>\n", kMargin - 6.0, box.hi[up]);
   svg += scale_of(kMargin + width + 16.0, 46.0, height - 12.0, raster.largest, unit);
   return svg + "</svg>\n";

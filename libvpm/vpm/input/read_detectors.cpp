@@ -28,7 +28,8 @@ Detector read_detector(TableReader& table, const std::string& usual_name, const 
       detector.kind = PlaneDetector{table.vector("point"), table.direction("normal")};
       break;
     case Kind::disc:
-      detector.kind = DiscDetector{table.vector("center"), table.direction("normal"), table.number("radius", kPositive)};
+      detector.kind =
+          DiscDetector{table.vector("center"), table.direction("normal"), table.number("radius", kPositive)};
       break;
     case Kind::quad:
       detector.kind = read_quad_detector(table);

@@ -39,7 +39,8 @@ void read_media_and_world(TableReader& root, const GivenParts& given, ScenePlan&
   if (plan.world_table) {
     plan.world_medium = read_medium_name(*plan.world_table, "medium", names, kVacuum);
     if (plan.world_table->has("cyclic"))
-      for (const std::string& axis : plan.world_table->words("cyclic", {"x", "y", "z"})) plan.cyclic[axis[0] - 'x'] = true;
+      for (const std::string& axis : plan.world_table->words("cyclic", {"x", "y", "z"}))
+        plan.cyclic[axis[0] - 'x'] = true;
     plan.world_table->finish();
   }
   if (media) plan.media = read_media(*media, names, given);

@@ -62,6 +62,12 @@ double mean_power(const Scene& scene) {
 
 }  // namespace
 
+Box default_field_box(const Scene& scene) {
+  const Box shapes = scene.geometry.bounds();
+  const Vec3 extent = shapes.empty() ? Vec3(0.0f) : shapes.extent();
+  return std::min({extent.x, extent.y, extent.z}) > 0.0f ? shapes : scene.bounds;
+}
+
 CellLattice about_cubes(const Box& box, int resolution) {
   const Vec3d extent(box.extent());
   const double edge = std::max({extent.x, extent.y, extent.z}) / resolution;

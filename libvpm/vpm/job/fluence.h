@@ -21,6 +21,8 @@ struct FluenceField {
   std::array<std::vector<Rgb>, 3> flux, flux_error;  // net flux along x, y and z in media, W/m^2; empty: not asked for
 };
 
+/// The box around the scene's shapes, where that has a volume.
+Box default_field_box(const Scene& scene);
 /// A box in about cubes, `resolution` >= 1 along its longest edge.
 CellLattice about_cubes(const Box& box, int resolution);
 

@@ -52,8 +52,9 @@ Json parts_of(const DetectorReading& reading, bool forward) {
       for (int angle = 0; angle < reading.detector.angles; ++angle) {
         const size_t bin = reading.detector.bin_of(forward, {i, j}, angle);
         Json row = {{"cell", {i, j}},
-                    {"cosines", {1.0 - (angle + 1.0) / reading.detector.angles,
-                                 1.0 - static_cast<double>(angle) / reading.detector.angles}}};
+                    {"cosines",
+                     {1.0 - (angle + 1.0) / reading.detector.angles,
+                      1.0 - static_cast<double>(angle) / reading.detector.angles}}};
         row.update(side(reading.power[bin], reading.counts[bin]));
         rows.push_back(row);
       }
@@ -108,8 +109,7 @@ std::string json_of(const Measurement& measured, const Scene& scene) {
                 {"absorbed_on_surfaces", flux(measured.absorbed_on_surfaces)},
                 {"escaped", flux(measured.escaped)},
                 {"detectors", Json::array()}};
-  for (const DetectorReading& reading : measured.detectors)
-    value["detectors"].push_back(detector_json(reading, scene));
+  for (const DetectorReading& reading : measured.detectors) value["detectors"].push_back(detector_json(reading, scene));
   return value.dump(2) + "\n";
 }
 

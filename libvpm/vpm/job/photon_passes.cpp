@@ -50,8 +50,7 @@ PhotonPasses run_photon_passes(const Scene& scene, const RenderSettings& setting
   try {
     while (goes_on()) {
       const double begin = run.clock->seconds();
-      const Ledger ledger =
-          trace_pass_number(first + made.passes, scene, settings, recorder, timed ? uncounted : bar);
+      const Ledger ledger = trace_pass_number(first + made.passes, scene, settings, recorder, timed ? uncounted : bar);
       const CancelledWith nothing(nullptr);  // what is finished counts
       take(ledger, ++made.passes);
       made.ledger.merge(ledger);

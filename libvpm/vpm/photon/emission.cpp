@@ -75,7 +75,8 @@ PathState emit_photon(const Scene& scene, const EmissionPoint& point) {
   const PickedLight light = pick_light(scene, point.light);
   if (std::holds_alternative<VolumeLight>(scene.lights[light.number]))
     return emit_from_medium(scene, light, point.numbers);
-  const Emission emission = emit(scene.lights[light.number], entrance_of(scene, scene.lights[light.number]), point.numbers);
+  const Emission emission =
+      emit(scene.lights[light.number], entrance_of(scene, scene.lights[light.number]), point.numbers);
   return {emission.ray, medium_of_ray(scene, scene.light_medium[light.number], emission.ray),
           emission.power / light.probability};
 }

@@ -33,9 +33,9 @@ class CellSums {
 };
 
 /// Records the lengths of flights in media times their power, W m [Spanier1969], the power that collisions absorb, W,
-/// and where it is asked for the lengths times power along each axis, of all photons in the cells of a lattice. Flights must be drawn from the media's own transmittance. Where a
-/// medium is chromatic the power at a place on a flight is that which the flight would have there: one place in each
-/// cell is drawn.
+/// and where it is asked for the lengths times power along each axis, of all photons in the cells of a lattice. Flights
+/// must be drawn from the media's own transmittance. Where a medium is chromatic the power at a place on a flight is
+/// that which the flight would have there: one place in each cell is drawn.
 class FieldRecorder final : public PhotonRecorder {
  public:
   /// `photon_power`, W, > 0, is what a photon carries: sums are as exact as 2^-30 of it.

@@ -53,7 +53,8 @@ class PhotonRecorder {
   virtual void join(PhotonRecorder& part) = 0;
   /// The number of kept photons that count towards TraceSettings::stored.
   virtual size_t stored() const { return 0; }
-  /// Which of flew(), collided(), hit(), escaped() and travelled() are called. It must not change while photons are traced.
+  /// Which of flew(), collided(), hit(), escaped() and travelled() are called. It must not change while photons are
+  /// traced.
   virtual RecordNeeds needs() const { return {}; }
   /// From now on also keeps where each photon comes from, if it can.
   virtual void keep_histories() {}

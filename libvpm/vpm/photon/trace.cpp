@@ -197,7 +197,8 @@ class PhotonPath {
     return settings_.split ? settings_.guide->worth(power, at_.state.ray.origin) : power / emitted_power_;
   }
 
-  /// Does the straight way of the path end at the event? It goes on behind a limit, unless that is a side of the period.
+  /// Does the straight way of the path end at the event? It goes on behind a limit, unless that is a side of the
+  /// period.
   bool ends_way() const { return at_.event.kind != EventKind::limit || scene_.period; }
 
   /// From a side of the period to the opposite one, where another medium may be.
@@ -231,7 +232,7 @@ class PhotonPath {
   PhotonNumbers::Lead lead_;
   Part& out_;
   Recorders of_flights_, of_collisions_, of_hits_, of_escapes_, of_ways_;  // those of `out_` that record these
-  const DirectionGuide* directions_ = nullptr;                   // null: scattering is not guided
+  const DirectionGuide* directions_ = nullptr;                             // null: scattering is not guided
   Branch at_;
   std::vector<Branch> waiting_;
   std::vector<Track> tracks_;  // of the last flight, if a recorder wants them

@@ -192,6 +192,10 @@ std::vector<std::string> notes_of(const Scene& scene) {
       notes.push_back(fmt::format(
           "medium '{}': the table of its phase function integrates to {:.6g} over the sphere, and is divided by that",
           medium.name, tabulated->table->total()));
+    if (tabulated && tabulated->table->columns() > 1)
+      notes.push_back(fmt::format(
+          "medium '{}': its phase function is the mean of the {} columns of its table, as it has no colour of its own",
+          medium.name, tabulated->table->columns()));
   }
   note_unresolved_place(scene.bounds, notes);
   note_unresolved_media(scene, notes);

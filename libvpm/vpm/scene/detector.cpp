@@ -83,13 +83,12 @@ Detections at_sphere(const Detector& detector, const SphereDetector& sphere, con
 }  // namespace
 
 Detections detections_of(const Detector& detector, const StraightWay& way) {
-  return std::visit(
-      Overloads{[&](const PlaneDetector& plane) { return at_plane(detector, plane, way); },
-                [&](const DiscDetector& disc) { return at_disc(detector, disc, way); },
-                [&](const QuadDetector& quad) { return at_quad(detector, quad, way); },
-                [&](const SphereDetector& sphere) { return at_sphere(detector, sphere, way); },
-                [](const MediumDetector&) { return Detections{}; }},
-      detector.kind);
+  return std::visit(Overloads{[&](const PlaneDetector& plane) { return at_plane(detector, plane, way); },
+                              [&](const DiscDetector& disc) { return at_disc(detector, disc, way); },
+                              [&](const QuadDetector& quad) { return at_quad(detector, quad, way); },
+                              [&](const SphereDetector& sphere) { return at_sphere(detector, sphere, way); },
+                              [](const MediumDetector&) { return Detections{}; }},
+                    detector.kind);
 }
 
 }  // namespace vpm

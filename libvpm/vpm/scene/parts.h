@@ -70,8 +70,8 @@ struct SceneParts {
   std::vector<ShapePart> shapes;
   std::vector<LightPart> lights;
   std::vector<Detector> detectors;
-  MediumId world_medium = kVacuum;    // fills all space outside the shapes that separate media
-  std::array<bool, 3> cyclic{};       // along which axes the box around all shapes repeats itself
+  MediumId world_medium = kVacuum;  // fills all space outside the shapes that separate media
+  std::array<bool, 3> cyclic{};     // along which axes the box around all shapes repeats itself
   Camera camera;
   std::optional<MediumId> camera_medium;  // nothing: what the shapes say is around the camera
 };

@@ -26,7 +26,7 @@ class Period {
 
  private:
   struct Side {
-    int axis = -1;              // -1: none
+    int axis = -1;               // -1: none
     float distance = kInfinity;  // m
   };
   Side next_side(const Ray& ray) const;

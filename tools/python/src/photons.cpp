@@ -12,8 +12,8 @@
 #include "scene_job.h"
 #include "vpm/base/error.h"
 #include "vpm/estimate/photon_queries.h"
-#include "vpm/integrators/photon_map/stored_photons.h"
 #include "vpm/input/grid/field_file.h"
+#include "vpm/integrators/photon_map/stored_photons.h"
 #include "vpm/job/fluence.h"
 #include "vpm/job/measurement.h"
 #include "vpm/job/photon_files.h"
@@ -111,16 +111,16 @@ std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optio
 
 std::shared_ptr<StoredPhotons> photons_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
                                           int pass) {
-  return collect<StoredPhotons>(
-      scene, seed, Settings::chosen,
-      [&](const Scene& of, const RenderSettings& settings) { return stored_photons(of, settings, pass); });
+  return collect<StoredPhotons>(scene, seed, Settings::chosen, [&](const Scene& of, const RenderSettings& settings) {
+    return stored_photons(of, settings, pass);
+  });
 }
 
 std::shared_ptr<PhotonFlights> flights_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed,
                                           int pass) {
-  return collect<PhotonFlights>(
-      scene, seed, Settings::chosen,
-      [&](const Scene& of, const RenderSettings& settings) { return photon_flights(of, settings, pass); });
+  return collect<PhotonFlights>(scene, seed, Settings::chosen, [&](const Scene& of, const RenderSettings& settings) {
+    return photon_flights(of, settings, pass);
+  });
 }
 
 py::dict energy_of(const Ledger& ledger) {
@@ -147,7 +147,8 @@ using Count = std::array<int, 3>;
 /// The cells of that box, or of the scene's; cubes of so many along its longest edge, or as many as are asked for.
 CellLattice lattice_of(const Scene& scene, const std::optional<Corners>& box, int resolution,
                        const std::optional<Count>& count) {
-  const Box asked = box ? Box{{(*box)[0], (*box)[1], (*box)[2]}, {(*box)[3], (*box)[4], (*box)[5]}} : scene.bounds;
+  const Box asked =
+      box ? Box{{(*box)[0], (*box)[1], (*box)[2]}, {(*box)[3], (*box)[4], (*box)[5]}} : default_field_box(scene);
   CellLattice lattice = about_cubes(asked, resolution);
   if (count) lattice.count = {(*count)[0], (*count)[1], (*count)[2]};
   return lattice;

@@ -38,13 +38,15 @@ class Photons:
         self.array: NDArray[Any] = stored.array()
         self.maps, self.places, self.emitted, self.energy = stored.maps, stored.places, stored.emitted, stored.energy()
 
-    def of(self, map: str | None = None, place: str | None = None) -> NDArray[Any]:
-        """The rows of the map, or of the medium or shape, of that name."""
+    def of(self, map: str | None = None, place: str | None = None, event: str | None = None) -> NDArray[Any]:
+        """The rows of the map, of the medium or shape, and of the event, of that name."""
         chosen = np.ones(len(self.array), bool)
         if map is not None:
             chosen &= self.array["map"] == _number(map, self.maps, "map")
         if place is not None:
             chosen &= self.array["place"] == _number(place, self.places, "medium or shape")
+        if event is not None:
+            chosen &= self.array["event"] == _number(event, list(EVENTS), "event")
         return self.array[chosen]
 
     def write(self, path: str | os.PathLike[str]) -> None:
@@ -101,8 +103,8 @@ def photons(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overri
 
 def flights(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overrides: Overrides = None,
             seed: int | None = None, number: int = 0) -> Flights:
-    """All flights of the same photons, from the lights to where they end. The integrator must be "photon-map" here,
-    too."""
+    """All flights of the same photons, from the lights to where they end. As these are the photons of a pass of
+    photon maps, the integrator must be "photon-map" here, too."""
     return Flights(_vpm.photon_flights(*_asked(scene, overrides, seed, number)))
 
 

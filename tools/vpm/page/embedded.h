@@ -15,6 +15,9 @@ namespace vpm::tools {
 /// HTML, with @results@, @about@ and @pictures@, in this order, where JSON belongs.
 std::string_view compare_template();
 
+/// HTML, with @measurement@ where JSON belongs.
+std::string_view measure_template();
+
 /// HTML, with @report@ and @pictures@, in this order, where JSON belongs.
 std::string_view report_template();
 

@@ -29,7 +29,8 @@ openvdb::GridBase::Ptr cells_grid(const std::string& name, const CellLattice& la
   for (Vec3i p(0); p.x < lattice.count.x; ++p.x)
     for (p.y = 0; p.y < lattice.count.y; ++p.y)
       for (p.z = 0; p.z < lattice.count.z; ++p.z)
-        if (const Value value = at(lattice.number_of(p)); value != Value(0.0f)) accessor.setValue({p.x, p.y, p.z}, value);
+        if (const Value value = at(lattice.number_of(p)); value != Value(0.0f))
+          accessor.setValue({p.x, p.y, p.z}, value);
   grid->setTransform(transform_of(to_world(lattice)));
   grid->setName(name);
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);

@@ -116,6 +116,17 @@ std::string kind_of(const Node& node) {
   return kNames[node.value.index()];
 }
 
+namespace {
+
+/// A table, a list, or a number without a digit before the point; other texts may do without quotes.
+bool is_meant_as_value(const std::string& text) {
+  const std::string_view unsigned_part = std::string_view(text).substr(text.find_first_not_of("+-") == 1 ? 1 : 0);
+  return text.starts_with('{') || text.starts_with('[') ||
+         (unsigned_part.size() > 1 && unsigned_part[0] == '.' && is_number(std::string(1, unsigned_part[1])));
+}
+
+}  // namespace
+
 void apply_override(Document& document, const std::string& option) {
   document.sources.push_back(std::make_unique<Source>(Source{"--set " + option, {}}));
   const Source* source = document.sources.back().get();
@@ -126,6 +137,10 @@ void apply_override(Document& document, const std::string& option) {
 
   const std::vector<std::string> keys = split_path(option.substr(0, equals), place);
   const std::unique_ptr<Node> parsed = parse_toml_value(text, source);
+  if (!parsed && is_meant_as_value(text))
+    fail_at(place, "'" + text + "' is no TOML value",
+            "numbers have a digit before the point, as 0.5; texts in lists and tables stand in quotes; keys and values "
+            "are parted by '='");
   const Node value = parsed ? *parsed : Node{place, text};
   note_replacement(document, keys, value, source);
   Node* node = &document.root;

@@ -48,7 +48,8 @@ double PhaseTable::within(size_t cell, double x) const {
   return 8.0 * kPiD * kStep * x * (s * p + x * (0.5 * (s * rise + kStep * p) + x * kStep * rise / 3.0));
 }
 
-PhaseTable::PhaseTable(std::span<const double> degrees, std::span<const double> values) : values_(kCells + 1) {
+PhaseTable::PhaseTable(std::span<const double> degrees, std::span<const double> values, int columns)
+    : values_(kCells + 1), columns_(columns) {
   check(degrees, values);
   std::vector<double> sampled(kCells + 1);
   size_t next = 1;

@@ -14,9 +14,9 @@ class PhaseTable {
  public:
   static constexpr int kCells = 4096;
 
-  /// Angles between the directions of travel before and after, degrees, rising from 0 to 180; values >= 0. Throws
-  /// InputError for others, and where all values are 0.
-  PhaseTable(std::span<const double> degrees, std::span<const double> values);
+  /// Angles between the directions of travel before and after, degrees, rising from 0 to 180; values >= 0, which are
+  /// the mean of so many columns. Throws InputError for others, and where all values are 0.
+  PhaseTable(std::span<const double> degrees, std::span<const double> values, int columns = 1);
 
   /// 1/sr, at s in [0, 1].
   float value(float s) const {
@@ -31,12 +31,14 @@ class PhaseTable {
   double mean_square_cosine() const { return mean_square_cosine_; }
   /// The integral over the sphere of the values that were given.
   double total() const { return total_; }
+  int columns() const { return columns_; }
 
  private:
   double within(size_t cell, double x) const;
 
   std::vector<float> values_;
   std::vector<double> cumulative_;  // up to the beginning of each cell, and 1
+  int columns_ = 1;
   double mean_cosine_ = 0.0, mean_square_cosine_ = 0.0, total_ = 0.0;
 };
 

@@ -73,13 +73,12 @@ PhaseMoments moments_of(const Phase& phase) {
   const auto of_lobe = [](const HenyeyGreenstein& lobe) { return henyey_greenstein_moments(double{lobe.g}); };
   const auto of_draine = [](const Draine& lobe) { return draine_moments(double{lobe.g}, double{lobe.alpha}); };
   return std::visit(
-      Overloads{[](const Isotropic&) { return isotropic_moments(); }, [](const Rayleigh&) { return rayleigh_moments(); },
-                of_lobe, of_draine,
-                [&](const TwoLobes& both) { return mixed_moments(of_lobe(both.a), of_lobe(both.b), double{both.first}); },
-                [&](const Droplets& both) {
-                  return mixed_moments(of_lobe(both.a), of_draine(both.b), double{both.first});
-                },
-                [](const Tabulated& of) { return table_moments(*of.table); }},
+      Overloads{
+          [](const Isotropic&) { return isotropic_moments(); }, [](const Rayleigh&) { return rayleigh_moments(); },
+          of_lobe, of_draine,
+          [&](const TwoLobes& both) { return mixed_moments(of_lobe(both.a), of_lobe(both.b), double{both.first}); },
+          [&](const Droplets& both) { return mixed_moments(of_lobe(both.a), of_draine(both.b), double{both.first}); },
+          [](const Tabulated& of) { return table_moments(*of.table); }},
       phase);
 }
 

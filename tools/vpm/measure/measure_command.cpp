@@ -1,8 +1,11 @@
 // vpm measure: scene file in; power through its detectors, with errors, out.
 #include <fmt/format.h>
+#include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "commands.h"
+#include "page/embedded.h"
 #include "pass_run.h"
 #include "this_process.h"
 #include "vpm/base/atomic_file.h"
@@ -19,8 +22,8 @@ namespace {
 
 void check_measurement_file(const std::filesystem::path& path, const RenderJob& job) {
   if (path.empty()) return;
-  if (path.extension() != ".json")
-    throw InputError(fmt::format("{}: measurements are written as .json", path.string()));
+  if (path.extension() != ".json" && path.extension() != ".html")
+    throw InputError(fmt::format("{}: measurements are written as .json, or as a page, .html", path.string()));
   check_writable(path, 0);
   check_not_read(path, job);
 }
@@ -47,19 +50,57 @@ void print_detector(const DetectorReading& reading, bool grey) {
   fmt::print("    backward  {} W, {} photons\n", text_of(reading.backward, grey), reading.backward_count);
 }
 
-/// What a slab's faces counted, as shares of the power that was emitted, beside what is exact.
+/// What a slab does with light, as shares of what falls on it.
+struct SlabShare {
+  const char* name;
+  const ChannelMoments& power;
+  exact::Bounded exact::SlabSolution::*exact;
+};
+std::array<SlabShare, 3> shares_of(const SlabScene& slab, const Measurement& measured) {
+  const DetectorReading* const faces = measured.detectors.data() + (measured.detectors.size() - slab.faces.size());
+  return {{{"reflected", faces[0].forward, &exact::SlabSolution::reflected},
+           {"transmitted", faces[1].forward, &exact::SlabSolution::transmitted},
+           {"absorbed", measured.absorbed_in_media, &exact::SlabSolution::absorbed}}};
+}
+
 void print_slab(const SlabScene& slab, const Measurement& measured, bool grey) {
   const auto solutions = solve(slab);
-  const Rgbd emitted = measured.emitted.mean();
-  const auto line = [&](const char* name, const ChannelMoments& power, exact::Bounded exact::SlabSolution::*value) {
-    const exact::Bounded values[3] = {solutions[0].*value, solutions[1].*value, solutions[2].*value};
-    fmt::print("  {:<12} {}  exact {}\n", name, text_of(power, grey, emitted), text_of(values, grey));
-  };
-  const size_t faces = measured.detectors.size() - slab.faces.size();
   fmt::print("shares of what falls on the slab:\n");
-  line("reflected", measured.detectors[faces].forward, &exact::SlabSolution::reflected);
-  line("transmitted", measured.detectors[faces + 1].forward, &exact::SlabSolution::transmitted);
-  line("absorbed", measured.absorbed_in_media, &exact::SlabSolution::absorbed);
+  for (const SlabShare& share : shares_of(slab, measured)) {
+    const exact::Bounded values[3] = {solutions[0].*share.exact, solutions[1].*share.exact, solutions[2].*share.exact};
+    fmt::print("  {:<12} {}  exact {}\n", share.name, text_of(share.power, grey, measured.emitted.mean()),
+               text_of(values, grey));
+  }
+}
+
+/// The errors of a single pass are not known.
+Json channels(const Rgbd& value) {
+  Json list = Json::array();
+  for (int c = 0; c < 3; ++c) list.push_back(std::isnan(value[c]) ? Json() : Json(value[c]));
+  return list;
+}
+
+/// What is printed and written.
+Json json_of(const RenderJob& job, const std::optional<SlabScene>& slab, const Measurement& measured) {
+  Json all = {{"scene", job.source}, {"grey", job.scene.grey}};
+  all.update(Json::parse(json_of(measured, job.scene)));
+  if (!slab) return all;
+  const auto solutions = solve(*slab);
+  for (const SlabShare& share : shares_of(*slab, measured)) {
+    const Rgbd whole = measured.emitted.mean();
+    all["slab"][share.name] = {
+        {"share", channels(share.power.mean() / whole)},
+        {"standard_error", channels(share.power.standard_error() / whole)},
+        {"exact",
+         {(solutions[0].*share.exact).value, (solutions[1].*share.exact).value, (solutions[2].*share.exact).value}}};
+  }
+  return all;
+}
+
+std::string page_of(const Json& measurement) {
+  std::string_view rest = measure_template();
+  const std::string page = up_to(rest, "@measurement@", measurement.dump());
+  return page + std::string(rest);
 }
 
 void print_measurement(const Measurement& measured, const Scene& scene, size_t detectors) {
@@ -85,11 +126,12 @@ int measure_command(const MeasureOptions& options) {
   const CancelScope scope(stop_on_signals());
   const PhotonRun run = photon_run(options);
   const Measurement measured = measure(job.scene, job.settings, detectors, run);
-  const std::string json = json_of(measured, job.scene);
-  if (!options.output.empty()) write_text(options.output, json);
+  const Json json = json_of(job, slab, measured);
+  if (const std::filesystem::path output = options.output; !output.empty())
+    write_text(output, output.extension() == ".html" ? page_of(json) : json.dump(2) + "\n");
   print_warnings(warnings_of(measured.run.ledger));
   if (options.json) {
-    fmt::print("{}", json);
+    fmt::print("{}\n", json.dump(2));
   } else {
     print_measurement(measured, job.scene, job.scene.detectors.size());
     if (slab) print_slab(*slab, measured, job.scene.grey);
