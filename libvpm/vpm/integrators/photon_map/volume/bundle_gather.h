@@ -26,7 +26,7 @@ class SegmentLanes {
     return held;
   }
   /// How far light of places, counted likewise, passes to the eye, m: from where SegmentRegion takes them to lie.
-  Floats distances_to_eye(const Floats3& places) const {
+  [[gnu::always_inline]] Floats distances_to_eye(const Floats3& places) const {
     const Floats distances = dot(slope_, places) + plane_;
     const Floats past_start = max(distances, 2.0f * start_ - distances);  // Mirrored
     return max(start_, min(past_start, 2.0f * end_ - past_start)) - start_;
