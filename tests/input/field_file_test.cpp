@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <openvdb/openvdb.h>
 
 #include "vpm/base/error.h"
 #include "vpm/input/grid/grid_file.h"
@@ -22,7 +22,7 @@ FluenceField some_field() {
     field.fluence_error.push_back(Rgb(0.1f * value));
     field.absorbed_error.push_back(Rgb(0.01f * value));
   }
-  field.flux = {field.fluence, field.absorbed, field.absorbed};
+  field.flux = {field.fluence, field.absorbed, std::vector<Rgb>(field.lattice.size(), Rgb(23.0f))};
   field.flux_error = field.flux;
   return field;
 }
@@ -47,13 +47,24 @@ TEST(FieldFile, HasAGridForEachChannelWhoseVoxelsAreTheCells) {
   const FluenceField field = some_field();
   const std::string path = testing::TempDir() + "field.vdb";
   write_field(field, path);
-  EXPECT_EQ(names_of(path), (std::vector<std::string>{
-                                "fluence_r float", "fluence_g float", "fluence_b float", "absorbed_r float",
-                                "absorbed_g float", "absorbed_b float", "fluence_error_r float",
-                                "fluence_error_g float", "fluence_error_b float", "absorbed_error_r float",
-                                "absorbed_error_g float", "absorbed_error_b float", "flux vec3s", "flux_error vec3s"}));
+  EXPECT_EQ(names_of(path),
+            (std::vector<std::string>{
+                "fluence_r float", "fluence_g float", "fluence_b float", "absorbed_r float", "absorbed_g float",
+                "absorbed_b float", "fluence_error_r float", "fluence_error_g float", "fluence_error_b float",
+                "absorbed_error_r float", "absorbed_error_g float", "absorbed_error_b float", "flux_r vec3s",
+                "flux_g vec3s", "flux_b vec3s", "flux_error_r vec3s", "flux_error_g vec3s", "flux_error_b vec3s"}));
   expect_values(path, "fluence_b", field.lattice, 3.0f);
   expect_values(path, "absorbed_error_g", field.lattice, 0.01f);
+}
+
+TEST(FieldFile, FluxIsAVectorInSpace) {
+  const std::string path = testing::TempDir() + "flux.vdb";
+  write_field(some_field(), path);
+  openvdb::io::File file(path);
+  file.open();
+  const auto flux = openvdb::gridPtrCast<openvdb::Vec3SGrid>(file.readGrid("flux_g"));
+  const openvdb::Vec3s value = flux->tree().getValue({3, 2, 1});  // of the last cell, whose number is 23
+  EXPECT_EQ(value, openvdb::Vec3s(46.0f, 11.5f, 23.0f));
 }
 
 TEST(FieldFile, OfGreyScenesHasOneForAllChannels) {

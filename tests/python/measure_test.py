@@ -239,6 +239,32 @@ def test_a_box_that_repeats_itself_is_a_slab(axes):
         assert squares(value[0], error[0], exact[0]) < 20
 
 
+def test_detectors_off_a_layer_that_repeats_itself_count_what_crosses_their_period():
+    """Far above the layer, where light has passed sides since it left, and below: as many as a plane counts."""
+    above = [{"name": f"above {h}", "type": "quad", "corner": [0, 250 + h, 500], "edge_u": [500, 0, 0],
+              "edge_v": [0, 0, -500]} for h in (0.01, 1000)]
+    plane = {"name": "plane", "type": "plane", "point": [0, 260, 0], "normal": [0, 1, 0]}
+    found = vpm.measure(layer_of_boxes(1.0, 60, above + [plane]), passes=2)
+    assert found["above 1000"].forward_count == found["above 0.01"].forward_count == found["plane"].forward_count > 0
+    assert found["above 1000"].backward_count == found["plane"].backward_count == found.photons
+
+
+def test_nothing_is_lost():
+    """Photons that are cut are counted, too."""
+    found = vpm.measure(slab({"sigma_t": 20.0, "albedo": 1.0}, [TOP]), passes=2)
+    for cut in (found, vpm.measure(vpm.Scene({**CUT}), passes=2)):
+        gone = cut.absorbed_in_media[0] + cut.absorbed_on_surfaces[0] + cut.escaped[0] + cut.cut_at_max_events[0]
+        assert gone == pytest.approx(cut.emitted[0], rel=1e-6)
+    assert (cut.cut_at_max_events[0] > 0).all()
+
+
+CUT = {
+    "camera": CAMERA, "media": {"mist": {"type": "homogeneous", "sigma_t": 20.0, "albedo": 1.0}},
+    "shapes": [box([-200, 0, -200], [200, 1, 200], "mist")], "detectors": [TOP], "render": {"max_events": 5},
+    "lights": [{"type": "beam", "position": [0, 2, 0], "direction": [0, -1, 0], "radius": 0.01, "power": 1}],
+    "integrator": {"type": "photon-map", "photons": {"emitted": 1000}, "volume": {"type": "beam", "radius": 0.1}}}
+
+
 def test_fluence_in_a_scene_that_repeats_itself_is_that_of_a_slab():
     sun_above = {"type": "directional", "direction": [0, -1, 0], "irradiance": 1}
     made = scene({"mist": {"type": "homogeneous", "sigma_t": 2.0, "albedo": 0.5}}, [box([0, 0, 0], [0.5, 1, 3], "mist")],
@@ -262,8 +288,9 @@ def test_the_same_bits_on_any_number_of_threads():
 
 
 def test_a_time_is_kept():
-    found = vpm.measure(slab(MIST, [TOP], emitted=1000), time=0.5)
-    assert found.photons == 1000 * found.passes and repr(found).startswith("Measurement(top, reflected, transmitted; ")
+    """No second pass is begun where there is no time, and it counts in the place of passes."""
+    found = vpm.measure(slab(MIST, [TOP], emitted=1000), passes=7, time=1e-9)
+    assert found.photons == 1000 and repr(found) == "Measurement(top; 1 passes)"
 
 
 WRONG = [
@@ -306,11 +333,26 @@ CYCLIC = {"cyclic": ["x", "z"]}
     ({"cyclic": ["x"]}, {"type": "directional", "direction": [0, -1, 0], "irradiance": 1}, "along two axes"),
     (CYCLIC, {"type": "directional", "direction": [1, 0, 0], "irradiance": 1}, "never enters"),
     (CYCLIC, {"type": "point", "position": [5, 0.5, 0.5], "intensity": 1}, "beyond the box"),
-    ({"cyclic": ["w"]}, LAMP, "x, y, z|\"x\", \"y\"|x or y"),
+    ({"cyclic": ["w"]}, LAMP, "cyclic"),
     (CYCLIC | {"medium": "mist"}, {"type": "point", "position": [0.5, 0.5, 0.5], "intensity": 1}, "no box to repeat")])
 def test_wrong_periods_are_refused(world, light, said):
     with pytest.raises(vpm.InputError, match=said):
         scene({"mist": {"type": "homogeneous", **MIST}}, [box([0, 0, 0], [1, 1, 1], "mist")], [light], world=world)
+
+
+@pytest.mark.parametrize("detector", [
+    {"type": "sphere", "center": [1, 0.5, 0.5], "radius": 0.1},
+    {"type": "disc", "center": [0.5, 0.5, 3], "normal": [0, 1, 0], "radius": 0.1},
+    {"type": "plane", "point": [0.5, 0, 0], "normal": [1, 0, 0]}])
+def test_detectors_across_the_sides_of_a_period_are_refused(detector):
+    with pytest.raises(vpm.InputError, match="reaches across the sides"):
+        scene({"mist": {"type": "homogeneous", **MIST}}, [box([0, 0, 0], [1, 1, 1], "mist")],
+              [{"type": "point", "position": [0.5, 0.5, 0.5], "intensity": 1}], [detector], world=CYCLIC)
+
+
+def test_a_period_has_a_width():
+    with pytest.raises(vpm.InputError, match="no width"):
+        scene(lights=[LAMP], detectors=[TOP], world=CYCLIC)
 
 
 def test_scenes_that_repeat_themselves_make_no_pictures():

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -43,6 +44,35 @@ TEST(SlabScene, IsNoneWhereAnythingElseIs) {
         "lights.0.direction=[0.1, 1, 0]", "shapes.0.material.type=\"mirror\"", "media.mist.sigma_t=[1, 0, 4]",
         "media.mist.phase={ type = \"henyey-greenstein\", g = 0.9995 }"})
     EXPECT_FALSE(slab_with({option})) << option;
+}
+
+TEST(SlabScene, OfParallelLightRepeatsItself) {
+  const std::string sun = "lights=[{ type = \"directional\", direction = [0, -1, 0], irradiance = 1 }]";
+  EXPECT_FALSE(slab_with({sun})) << "light reaches its sides";
+  const std::optional<SlabScene> slab = slab_with({sun, "world.cyclic=[\"x\", \"z\"]"});
+  ASSERT_TRUE(slab);
+  EXPECT_EQ(std::get<PlaneDetector>(slab->faces[0].kind).point.y, 3.0f) << "the light comes from above";
+}
+
+// A closed shape whose medium is at all corners of its box, but not everywhere in it.
+TEST(SlabScene, IsNoPlateWithAHole) {
+  const std::string path = testing::TempDir() + "plate.obj";
+  std::ofstream file(path);
+  for (const int y : {1, 3})
+    for (const int half : {100, 30})
+      for (const auto& [x, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+        file << "v " << x * half << " " << y << " " << z * half << "\n";
+  const auto quad = [&](int a, int b, int c, int d) { file << "f " << a << " " << b << " " << c << " " << d << "\n"; };
+  for (int i = 1; i <= 4; ++i) {
+    const int next = i % 4 + 1;
+    quad(i, next, next + 4, i + 4);            // below
+    quad(i + 8, i + 12, next + 12, next + 8);  // above
+    quad(i, i + 8, next + 8, next);            // around
+    quad(i + 4, next + 4, next + 12, i + 12);  // in the hole
+  }
+  file.close();
+  EXPECT_FALSE(slab_with({"shapes.0={ type = \"mesh\", path = \"" + path +
+                          "\", inside = \"mist\", material = { type = \"boundary\" } }"}));
 }
 
 // Henyey and Greenstein's moments are powers of g; a table of it has them as far as it resolves the function.

@@ -63,7 +63,7 @@ TEST_F(VpmRender, ARenderInterruptedInItsFirstPassLeavesNothing) {
                     {20.0, 0, folder_.string()});
     const ProcessResult result = interrupt(process, SIGINT, "render  [");
     EXPECT_EQ(result.status, 130) << result.err;
-    EXPECT_NE(result.err.find("no picture is written"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("nothing is written"), std::string::npos) << result.err;
     EXPECT_EQ(files(), before);
   }
 }
@@ -93,7 +93,7 @@ TEST_F(VpmRender, AViewInterruptedInItsFirstPassLeavesNothing) {
   Process process(view, {60.0, 0, folder_.string()});
   const ProcessResult result = interrupt(process, SIGINT, "render  [");
   EXPECT_EQ(result.status, 130) << result.err;
-  expect_words(result.err, {"no picture is written"});
+  expect_words(result.err, {"nothing is written"});
   EXPECT_EQ(files(), before);
   write("a.png", "of an earlier render");
   Process again(view, {60.0, 0, folder_.string()});

@@ -72,6 +72,8 @@ TEST_F(VpmMeasure, WrongWishesAreRefused) {
   vpm_refuses({"measure", "slab.toml", "--checkpoint"}, {"--checkpoint"});
   vpm_refuses({"measure", "slab.toml", "--set", "integrator.distance.type=local-extinction"},
               {"do not end as the transmittance"});
+  vpm_refuses({"measure", "slab.toml", "--set", "integrator.distance.type=progressive-null"},
+              {"of another law in each"});
   vpm_refuses({"measure", "slab.toml", "--set", "detectors.0.radius=1"}, {"radius"});
   vpm_refuses({"render", "slab.toml", "--set", "world.cyclic=[\"x\"]"}, {"makes no picture", "vpm measure"});
 }
@@ -81,7 +83,7 @@ TEST_F(VpmMeasure, FieldsBecomeGridsAndDrawings) {
                 "--flux", "--time", "0.2"});
   const std::string listed = vpm_succeeds({"info", "a.vdb"}).out;
   for (const char* grid :
-       {"grid fluence: float", "grid absorbed_error: float", "grid flux: vec3s", "(0.25, 0.25, 0.25)"})
+       {"grid fluence: float", "grid absorbed_error: float", "grid flux: vec3s", "voxel size (0.25, 0.25, 0.25)"})
     EXPECT_NE(listed.find(grid), std::string::npos) << listed;
   vpm_succeeds({"fluence", "slab.toml", "-o", "c.vdb", "--resolution", "8", "--passes", "1", "--set",
                 "media.mist.sigma_t=[1, 2, 3]"});
@@ -91,6 +93,8 @@ TEST_F(VpmMeasure, FieldsBecomeGridsAndDrawings) {
   for (const char* part : {"absorbed of a.vdb, z = 0.1 m", "W/m^3</text>", "data:image/png;base64,", "x = -1 m"})
     EXPECT_NE(drawing.find(part), std::string::npos) << part;
   vpm_refuses({"view", "a.vdb", "--grid", "absorbed", "--slice", "z=2"}, {"the grid goes from -1 to 1 m"});
+  vpm_succeeds({"view", "a.vdb", "--grid", "fluence", "--slice", "z=1"});  // a face belongs to the grid
+  vpm_refuses({"view", "a.vdb", "--slice", "y", "--exposure", "1"}, {"--exposure"});
   vpm_refuses({"view", "a.vdb", "--slice", "w"}, {"w is no slice"});
   vpm_refuses({"view", "a.vdb", "--grid", "flux", "--slice", "z"}, {"flux", "vec3s"});
 }

@@ -142,7 +142,8 @@ void add_view(CLI::App& app, ViewOptions& options) {
                           "Draw a slice across an axis, x, y or z, with a scale of its values, instead: y=0.25 (m), or "
                           "y for the middle. Default output: FILE.svg");
   slice->check(check_slice)->excludes(scene);
-  for (const char* other : {"--passes", "--time", "--error", "--size", "--spp", "--crop", "--optical-depth"})
+  for (const char* other : {"--passes", "--time", "--error", "--size", "--spp", "--crop", "--optical-depth", "--up",
+                            "--set", "--seed", "--exposure", "--display", "--preview", "--quiet"})
     slice->excludes(command->get_option(other));
 }
 
@@ -231,7 +232,8 @@ void add_fluence(CLI::App& app, FluenceOptions& options) {
       "power in W/m^3, and their standard errors.");
   add_scene(command, options.scene);
   add_scene_options(command, options, "File to write (.npy or .vdb); default: SCENE.fluence.npy");
-  command->add_option("--box", options.box, "Corners x0 y0 z0 x1 y1 z1, m; default: the box of the scene")->expected(6);
+  command->add_option("--box", options.box, "Corners x0 y0 z0 x1 y1 z1, m; default: the box around all shapes")
+      ->expected(6);
   command->add_option("--resolution", options.resolution, "Cells along the longest edge of the box")
       ->check(whole_number(1, 4096))
       ->capture_default_str();

@@ -117,7 +117,7 @@ struct CountOptions : SceneOptions {
 };
 
 struct FluenceOptions : CountOptions {  // to a .npy or .vdb
-  std::vector<float> box;               // x0, y0, z0, x1, y1, z1, m; empty: the scene's
+  std::vector<float> box;               // x0, y0, z0, x1, y1, z1, m; empty: that of all shapes
   int resolution = 64;                  // cells along its longest edge
   bool flux = false;                    // net flux, too
 };

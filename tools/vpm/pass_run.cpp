@@ -30,7 +30,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 int say_interrupted(const StopRule& until, int passes) {
   if (passes == 0)
-    fmt::print(stderr, "interrupted before the first pass was finished: no picture is written\n");
+    fmt::print(stderr, "interrupted before the first pass was finished: nothing is written\n");
   else if (until.counts_passes())
     fmt::print(stderr, "interrupted after {} of {} passes\n", passes, until.passes);
   else

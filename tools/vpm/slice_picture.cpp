@@ -39,7 +39,7 @@ Raster raster_of(const DensityGrid& grid, const Box& box, int axis, double at) {
   for (int j = 0; j < raster.height; ++j)
     for (int i = 0; i < raster.width; ++i) {
       Vec3 place;
-      place[axis] = static_cast<float>(at);
+      place[axis] = static_cast<float>(std::clamp(at, box.lo[axis] + 0.1 * pixel, box.hi[axis] - 0.1 * pixel));
       place[right] = box.lo[right] + (static_cast<float>(i) + 0.5f) / static_cast<float>(raster.width) * extent[right];
       place[up] = box.hi[up] - (static_cast<float>(j) + 0.5f) / static_cast<float>(raster.height) * extent[up];
       raster.values.push_back(grid.density(place));

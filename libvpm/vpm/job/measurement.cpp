@@ -96,6 +96,7 @@ Measurement measure(const Scene& scene, const RenderSettings& settings, const st
     measured.absorbed_in_media.add(ledger.absorbed_in_media / photons);
     measured.absorbed_on_surfaces.add(ledger.absorbed_on_surfaces / photons);
     measured.escaped.add(ledger.escaped / photons);
+    measured.cut.add(ledger.cut / photons);
     recorder.clear();
   });
   return measured;
@@ -108,8 +109,10 @@ std::string json_of(const Measurement& measured, const Scene& scene) {
                 {"absorbed_in_media", flux(measured.absorbed_in_media)},
                 {"absorbed_on_surfaces", flux(measured.absorbed_on_surfaces)},
                 {"escaped", flux(measured.escaped)},
+                {"cut_at_max_events", flux(measured.cut)},
                 {"detectors", Json::array()}};
-  for (const DetectorReading& reading : measured.detectors) value["detectors"].push_back(detector_json(reading, scene));
+  for (size_t i = 0; i < scene.detectors.size(); ++i)
+    value["detectors"].push_back(detector_json(measured.detectors[i], scene));
   return value.dump(2) + "\n";
 }
 

@@ -22,14 +22,15 @@ struct DetectorReading {
 struct Measurement {
   PhotonPasses run;
   std::vector<DetectorReading> detectors;
-  ChannelMoments emitted, absorbed_in_media, absorbed_on_surfaces, escaped;  // W, over passes
+  ChannelMoments emitted, absorbed_in_media, absorbed_on_surfaces, escaped, cut;  // W, over passes
 };
 
 /// Counts the photons of passes. Throws as check_photon_passes() does, and InputError where there is no detector.
 Measurement measure(const Scene& scene, const RenderSettings& settings, const std::vector<Detector>& detectors,
                     const PhotonRun& run);
 
-/// The measurement as JSON: totals and errors of each detector, and its cells and angles where it has any.
+/// The measurement as JSON: totals and errors of each of the scene's own detectors, which come first, and its cells and
+/// angles where it has any.
 std::string json_of(const Measurement& measurement, const Scene& scene);
 
 }  // namespace vpm

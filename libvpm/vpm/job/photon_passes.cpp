@@ -1,7 +1,7 @@
 // The loop over passes of photons.
 #include "vpm/job/photon_passes.h"
 
-#include <optional>
+#include <algorithm>
 
 #include "vpm/base/cancel.h"
 #include "vpm/base/settings/setting_error.h"
@@ -25,9 +25,14 @@ Ledger trace_pass_number(int pass, const Scene& scene, const RenderSettings& set
 }  // namespace
 
 void check_photon_passes(const RenderSettings& settings) {
-  refuse_if(!strategy_info(settings.distance.strategy).analog, "integrator.distance.type",
+  const StrategyInfo& strategy = strategy_info(settings.distance.strategy);
+  refuse_if(!strategy.analog, "integrator.distance.type",
             "flights by '" + settings.distance.strategy + "' do not end as the transmittance says",
             listed("these do", strategies_that(&StrategyInfo::analog)));
+  refuse_if(
+      !strategy.unbiased && !strategy.marches, "integrator.distance.type",
+      "flights by '" + settings.distance.strategy + "' are of another law in each pass, so that errors are not known",
+      listed("these are of one", strategies_that(&StrategyInfo::unbiased)));
   refuse_if(settings.importance.importons > 0, "integrator.importance.importons",
             "photons are counted everywhere, and would be guided to what the camera sees", "leave out 'importons'");
   refuse_if(settings.photons.emitted == 0, "integrator.photons.emitted", "passes would have no end",
@@ -43,6 +48,7 @@ PhotonPasses run_photon_passes(const Scene& scene, const RenderSettings& setting
   Progress bar("photons", timed ? kParts : settings.photons.emitted * static_cast<uint64_t>(passes), shown);
   Progress uncounted("", 0, false);
   PhotonPasses made;
+  const double start = run.clock->seconds();
   double last = 0.0;  // s that the last pass took
   const auto goes_on = [&] {
     return timed ? made.passes == 0 || run.clock->seconds() + last <= seconds : made.passes < passes;
@@ -55,7 +61,8 @@ PhotonPasses run_photon_passes(const Scene& scene, const RenderSettings& setting
       take(ledger, ++made.passes);
       made.ledger.merge(ledger);
       last = run.clock->seconds() - begin;
-      if (timed) bar.advance(static_cast<uint64_t>(kParts * last / seconds));
+      const double over = (run.clock->seconds() - start) / std::max(seconds - start, last);
+      if (timed) bar.advance(static_cast<uint64_t>(kParts * std::min(1.0, over)) - bar.done());
     }
   } catch (const Cancelled&) {
     if (made.passes == 0) throw;

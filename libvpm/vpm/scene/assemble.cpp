@@ -240,18 +240,40 @@ void add_lists(SceneParts& parts, AssembledScene& result) {
   scene.camera = parts.camera;
 }
 
-/// Lights of a scene that repeats itself lie within its period, or far along an axis that does not.
+/// Lights and detectors of a scene that repeats itself lie between its sides.
 void check_period(const Scene& scene) {
   if (!scene.period) return;
-  for (const Light& light : scene.lights) {
-    const std::optional<LightPlace> place = light_place(light);
-    for (int a = 0; place && a < 3; ++a)
-      if (scene.period->repeats(a) &&
-          (place->bounds.lo[a] < scene.bounds.lo[a] || place->bounds.hi[a] > scene.bounds.hi[a]))
-        throw PartError({PartKind::cyclic},
-                        "a light reaches beyond the box around all shapes, which repeats itself along that axis",
-                        "move the light, or give the box the width of a period");
+  const auto leaves = [&](const Box& box) {
+    for (int a = 0; a < 3; ++a)
+      if (scene.period->repeats(a) && (box.lo[a] < scene.bounds.lo[a] || box.hi[a] > scene.bounds.hi[a])) return true;
+    return false;
+  };
+  for (const Light& light : scene.lights)
+    if (const std::optional<LightPlace> place = light_place(light); place && leaves(place->bounds))
+      throw PartError({PartKind::cyclic},
+                      "a light reaches beyond the box around all shapes, which repeats itself along that axis",
+                      "move the light, or give the box the width of a period");
+  for (size_t i = 0; i < scene.detectors.size(); ++i) {
+    const Box around = bounds_of(scene.detectors[i]);
+    const auto* const plane = std::get_if<PlaneDetector>(&scene.detectors[i].kind);
+    bool across = !around.empty() && leaves(around);
+    for (int a = 0; plane && a < 3; ++a) across = across || (scene.period->repeats(a) && plane->normal[a] != 0.0f);
+    if (across)
+      throw PartError({PartKind::detector, i},
+                      "'" + scene.detectors[i].name +
+                          "' reaches across the sides of a scene "
+                          "that repeats itself",
+                      "keep it between them; the normal of a plane is along an axis that does not repeat itself");
   }
+}
+
+/// The box around all shapes, which is to repeat itself, has a width.
+void check_width(const Scene& scene) {
+  const Box shapes = scene.geometry.bounds();
+  for (int a = 0; a < 3; ++a)
+    if (scene.cyclic[static_cast<size_t>(a)] && (shapes.empty() || !(shapes.extent()[a] > 0.0f)))
+      throw PartError({PartKind::cyclic}, "the shapes have no width along an axis that is to repeat itself",
+                      "add the box of a medium, or a floor");
 }
 
 void check_contradictions(const Scene& scene, const Boxes& boxes) {
@@ -293,6 +315,7 @@ AssembledScene assemble(SceneParts parts) {
   add_lists(parts, result);
   add_shapes(parts, boxes, result);
   add_emitting_media(around, result);
+  check_width(scene);
   scene.camera_medium = parts.camera_medium ? *parts.camera_medium : medium_around(scene, scene.camera.position);
   try {
     finish(scene);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "vpm/base/overloads.h"
@@ -16,28 +17,35 @@ size_t bin_at(const Detector& detector, const std::array<int, 2>& cell, double c
   return detector.bin_of(cosine > 0.0, cell, std::clamp(angle, 0, detector.angles - 1));
 }
 
-/// How far it is to where the flight passes a plane.
-std::optional<double> to_plane(const Vec3d& point, const Vec3d& normal, const StraightWay& way) {
+/// Where a flight passes a plane.
+struct PlanePassage {
+  double distance = 0.0;  // m
+  double cosine = 0.0;    // to the normal, of the sign that the flight's ends say
+};
+std::optional<PlanePassage> to_plane(const Vec3d& point, const Vec3d& normal, const StraightWay& way) {
   const double before = glm::dot(way.from - point, normal), rise = glm::dot(way.direction, normal);
-  const double after = way.endless ? rise : glm::dot(way.to - point, normal);
-  if ((before >= 0.0) == (after >= 0.0) || rise == 0.0) return std::nullopt;
-  return std::max(0.0, -before / rise);
+  const double far = rise == 0.0 ? before : rise;  // of an endless flight, which stays on its side along the plane
+  const double after = way.endless ? far : glm::dot(way.to - point, normal);
+  if ((before >= 0.0) == (after >= 0.0)) return std::nullopt;
+  const double steep = std::max(std::abs(rise), std::numeric_limits<double>::min());
+  const double distance = std::abs(before) / steep, whole = way.endless ? distance : glm::distance(way.from, way.to);
+  return PlanePassage{std::min(distance, whole), before < 0.0 ? steep : -steep};
 }
 
 Detections at_plane(const Detector& detector, const PlaneDetector& plane, const StraightWay& way) {
   Detections found;
   const Vec3d normal(plane.normal);
-  if (const auto distance = to_plane(Vec3d(plane.point), normal, way))
-    found.add({*distance, bin_at(detector, {0, 0}, glm::dot(way.direction, normal))});
+  if (const auto passage = to_plane(Vec3d(plane.point), normal, way))
+    found.add({passage->distance, bin_at(detector, {0, 0}, passage->cosine)});
   return found;
 }
 
 Detections at_disc(const Detector& detector, const DiscDetector& disc, const StraightWay& way) {
   Detections found;
   const Vec3d normal(disc.normal), center(disc.center);
-  const auto distance = to_plane(center, normal, way);
-  if (distance && glm::distance(way.from + *distance * way.direction, center) <= double{disc.radius})
-    found.add({*distance, bin_at(detector, {0, 0}, glm::dot(way.direction, normal))});
+  const auto passage = to_plane(center, normal, way);
+  if (passage && glm::distance(way.from + passage->distance * way.direction, center) <= double{disc.radius})
+    found.add({passage->distance, bin_at(detector, {0, 0}, passage->cosine)});
   return found;
 }
 
@@ -46,9 +54,9 @@ Detections at_quad(const Detector& detector, const QuadDetector& quad, const Str
   const Vec3d corner(quad.corner), u(quad.edge_u), v(quad.edge_v), across = glm::cross(u, v);
   const double area = glm::length(across);
   const Vec3d normal = across / area;
-  const auto distance = to_plane(corner, normal, way);
-  if (!distance) return found;
-  const Vec3d place = way.from + *distance * way.direction - corner;
+  const auto passage = to_plane(corner, normal, way);
+  if (!passage) return found;
+  const Vec3d place = way.from + passage->distance * way.direction - corner;
   const std::array<double, 2> share{glm::dot(glm::cross(place, v), normal) / area,
                                     glm::dot(glm::cross(u, place), normal) / area};
   std::array<int, 2> cell;
@@ -56,7 +64,7 @@ Detections at_quad(const Detector& detector, const QuadDetector& quad, const Str
     if (!(share[a] >= 0.0 && share[a] < 1.0)) return found;
     cell[a] = std::min(quad.cells[a] - 1, static_cast<int>(share[a] * quad.cells[a]));
   }
-  found.add({*distance, bin_at(detector, cell, glm::dot(way.direction, normal))});
+  found.add({passage->distance, bin_at(detector, cell, passage->cosine)});
   return found;
 }
 
@@ -81,6 +89,26 @@ Detections at_sphere(const Detector& detector, const SphereDetector& sphere, con
 }
 
 }  // namespace
+
+Box bounds_of(const Detector& detector) {
+  Box box;
+  const auto around = [&](const Vec3& center, const Vec3& half) {
+    box.add(center - half);
+    box.add(center + half);
+  };
+  std::visit(
+      Overloads{[&](const DiscDetector& disc) {
+                  around(disc.center, disc.radius * glm::sqrt(glm::max(Vec3(0.0f), 1.0f - disc.normal * disc.normal)));
+                },
+                [&](const QuadDetector& quad) {
+                  for (const int corner : {0, 1, 2, 3})
+                    box.add(quad.corner + static_cast<float>(corner & 1) * quad.edge_u +
+                            static_cast<float>(corner >> 1) * quad.edge_v);
+                },
+                [&](const SphereDetector& sphere) { around(sphere.center, Vec3(sphere.radius)); }, [](const auto&) {}},
+      detector.kind);
+  return box;
+}
 
 Detections detections_of(const Detector& detector, const StraightWay& way) {
   return std::visit(Overloads{[&](const PlaneDetector& plane) { return at_plane(detector, plane, way); },

@@ -57,6 +57,9 @@ struct Detector {
   }
 };
 
+/// The box around a surface that is bounded, m; an empty one for planes and media.
+Box bounds_of(const Detector& detector);
+
 /// A straight flight.
 struct StraightWay {
   Vec3d from{0.0}, to{0.0};  // m

@@ -6,7 +6,7 @@
 namespace vpm {
 
 Period::Period(const Box& box, const std::array<bool, 3>& axes) : box_(box), axes_(axes) {
-  constexpr float kInset = 1e-6f;  // of the width; floats resolve a tenth of that
+  constexpr float kInset = 1e-6f;  // floats resolve a tenth of that
   for (int a = 0; a < 3; ++a) {
     if (!repeats(a)) continue;
     const float inset = kInset * std::max({box.extent()[a], std::abs(box.lo[a]), std::abs(box.hi[a])});

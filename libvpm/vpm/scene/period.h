@@ -10,8 +10,8 @@ namespace vpm {
 
 class Period {
  public:
-  /// One period: as wide as the box along each axis that repeats itself. Its sides stand a millionth of its width
-  /// inside the box, so that faces there are never met.
+  /// One period: as wide as the box along each axis that repeats itself. Its sides stand inside the box, by a millionth
+  /// of its width or of its farthest coordinate, so that faces there are never met.
   Period(const Box& box, const std::array<bool, 3>& axes);
 
   const Box& box() const { return box_; }

@@ -47,6 +47,10 @@ std::optional<Period> period_of(const Scene& scene) {
   if (scene.cyclic == std::array<bool, 3>{}) return std::nullopt;
   const Box shapes = scene.geometry.bounds();
   Box box = scene.bounds;
+  for (const Detector& detector : scene.detectors) {
+    const Box around = bounds_of(detector);
+    if (!around.empty()) box.add(around);  // what leaves the shapes goes on repeating itself up to there
+  }
   for (int a = 0; a < 3; ++a)
     if (scene.cyclic[static_cast<size_t>(a)]) {
       box.lo[a] = shapes.lo[a];

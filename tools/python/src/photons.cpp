@@ -101,7 +101,7 @@ std::shared_ptr<Data> collect(const std::shared_ptr<SceneJob>& scene, std::optio
       if (which == Settings::chosen)
         choose(job);
       else
-        refuse_automatic(job, "this");
+        refuse_automatic(job, "what counts photons");
       data = std::make_shared<Data>(of(job.scene, job.settings));
     });
   });
@@ -187,7 +187,7 @@ std::shared_ptr<Measured> measured_of(const std::shared_ptr<SceneJob>& scene, st
 
 py::tuple channels_of(const Rgbd& value) { return py::make_tuple(value.r, value.g, value.b); }
 
-/// Three solutions' values and bounds: of each channel.
+/// The value of each channel.
 py::tuple exact_of(const std::array<exact::SlabSolution, 3>& slab, exact::Bounded exact::SlabSolution::*value) {
   return py::make_tuple((slab[0].*value).value, (slab[1].*value).value, (slab[2].*value).value);
 }
@@ -337,8 +337,7 @@ void bind_photons(py::module_& module) {
       });
   py::class_<Measured, std::shared_ptr<Measured>>(module, "Measured")
       .def_readonly("json", &Measured::json)
-      .def_property_readonly("slab", &slab_dict)
-      .def("energy", [](const Measured& measured) { return energy_of(measured.measurement.run.ledger); });
+      .def_property_readonly("slab", &slab_dict);
   module.def("fluence", &fluence_of);
   module.def("measure", &measured_of);
   module.def("stored_photons", &photons_of);

@@ -147,7 +147,7 @@ def fluence(scene: Scene | str | os.PathLike[str] | Mapping[str, Any], *, overri
     """Fluence and absorbed power inside media, whatever the integrator: by the lengths of photons' flights, and by
     their collisions. The same bits on any number of threads.
 
-    box: its corners ((x0, y0, z0), (x1, y1, z1)), m; that of the scene unless given. cells: how many along its longest
+    box: its corners ((x0, y0, z0), (x1, y1, z1)), m; that of all shapes unless given. cells: how many along its longest
     edge, in about cubes; or along each axis. passes: how many, each of as many photons as the scene says; time: as many
     as fit into so many seconds instead. flux: net flux, too.
     """
@@ -201,17 +201,17 @@ class Reading:
 class Measurement:
     """Readings by name: measurement["top"].forward; and the energy of all photons, W.
 
-    passes, photons: how many there were. emitted, absorbed_in_media, absorbed_on_surfaces, escaped: W, pairs of the
-    value and its standard error. slab: where the scene is a plane layer under parallel light along its normal, a dict
-    of "reflected", "transmitted" and "absorbed", each the shares of the light, their standard errors, and the exact
-    ones; else None.
+    passes, photons: how many there were. emitted, absorbed_in_media, absorbed_on_surfaces, escaped and
+    cut_at_max_events (of photons that ended at render.max_events): W, pairs of the value and its standard
+    error. slab: where the scene is a plane layer under parallel light along its normal, a dict of "reflected",
+    "transmitted" and "absorbed", each the shares of the light, their standard errors, and the exact ones; else None.
     """
 
     def __init__(self, measured: _vpm.Measured):
         found = json.loads(measured.json)
         self.passes, self.photons = found["passes"], found["photons"]
         self.readings = [Reading(reading) for reading in found["detectors"]]
-        for name in ("emitted", "absorbed_in_media", "absorbed_on_surfaces", "escaped"):
+        for name in ("emitted", "absorbed_in_media", "absorbed_on_surfaces", "escaped", "cut_at_max_events"):
             flux = found[name]
             setattr(self, name, (np.array(flux["power_W"], float), np.array(flux["standard_error_W"], float)))
         self.slab = measured.slab

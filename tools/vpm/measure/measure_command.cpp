@@ -1,5 +1,6 @@
 // vpm measure: scene file in; power through its detectors, with errors, out.
 #include <fmt/format.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -28,16 +29,21 @@ void check_measurement_file(const std::filesystem::path& path, const RenderJob& 
   check_not_read(path, job);
 }
 
-/// "0.097395 +- 0.00009", of grey scenes; of others for each channel. As a share of `whole`.
+/// "0.097395 +- 0.00009", of grey scenes; of others for each channel. As a share of `whole`; "none" where that is 0.
 std::string text_of(const ChannelMoments& power, bool grey, const Rgbd& whole = Rgbd(1.0)) {
   const Rgbd mean = power.mean() / whole, error = power.standard_error() / whole;
-  const auto one = [&](int c) { return fmt::format("{:.6g} +- {:.2g}", mean[c], error[c]); };
+  const auto one = [&](int c) { return whole[c] == 0.0 ? "none" : fmt::format("{:.6g} +- {:.2g}", mean[c], error[c]); };
   return grey ? one(0) : fmt::format("({}, {}, {})", one(0), one(1), one(2));
 }
 
-std::string text_of(const exact::Bounded (&values)[3], bool grey) {
-  return grey ? fmt::format("{:.7g}", values[0].value)
-              : fmt::format("({:.7g}, {:.7g}, {:.7g})", values[0].value, values[1].value, values[2].value);
+/// What is within its error of 0 is 0.
+double value_of(const exact::Bounded& bounded) {
+  return std::abs(bounded.value) <= bounded.error ? 0.0 : bounded.value;
+}
+
+std::string text_of(const std::array<double, 3>& values, bool grey) {
+  return grey ? fmt::format("{:.7g}", values[0])
+              : fmt::format("({:.7g}, {:.7g}, {:.7g})", values[0], values[1], values[2]);
 }
 
 void print_detector(const DetectorReading& reading, bool grey) {
@@ -50,27 +56,28 @@ void print_detector(const DetectorReading& reading, bool grey) {
   fmt::print("    backward  {} W, {} photons\n", text_of(reading.backward, grey), reading.backward_count);
 }
 
-/// What a slab does with light, as shares of what falls on it.
+/// What a slab does with light, of what falls on it.
 struct SlabShare {
   const char* name;
   const ChannelMoments& power;
-  exact::Bounded exact::SlabSolution::*exact;
+  std::array<double, 3> exact;
 };
-std::array<SlabShare, 3> shares_of(const SlabScene& slab, const Measurement& measured) {
-  const DetectorReading* const faces = measured.detectors.data() + (measured.detectors.size() - slab.faces.size());
-  return {{{"reflected", faces[0].forward, &exact::SlabSolution::reflected},
-           {"transmitted", faces[1].forward, &exact::SlabSolution::transmitted},
-           {"absorbed", measured.absorbed_in_media, &exact::SlabSolution::absorbed}}};
+std::vector<SlabShare> shares_of(const std::optional<SlabScene>& slab, const Measurement& measured) {
+  if (!slab) return {};
+  const auto solutions = solve(*slab);
+  const auto exact_of = [&](exact::Bounded exact::SlabSolution::*value) {
+    return std::array{value_of(solutions[0].*value), value_of(solutions[1].*value), value_of(solutions[2].*value)};
+  };
+  const DetectorReading* const faces = measured.detectors.data() + (measured.detectors.size() - slab->faces.size());
+  return {{"reflected", faces[0].forward, exact_of(&exact::SlabSolution::reflected)},
+          {"transmitted", faces[1].forward, exact_of(&exact::SlabSolution::transmitted)},
+          {"absorbed", measured.absorbed_in_media, exact_of(&exact::SlabSolution::absorbed)}};
 }
 
-void print_slab(const SlabScene& slab, const Measurement& measured, bool grey) {
-  const auto solutions = solve(slab);
-  fmt::print("shares of what falls on the slab:\n");
-  for (const SlabShare& share : shares_of(slab, measured)) {
-    const exact::Bounded values[3] = {solutions[0].*share.exact, solutions[1].*share.exact, solutions[2].*share.exact};
-    fmt::print("  {:<12} {}  exact {}\n", share.name, text_of(share.power, grey, measured.emitted.mean()),
-               text_of(values, grey));
-  }
+void print_shares(const std::vector<SlabShare>& shares, const Rgbd& emitted, bool grey) {
+  if (!shares.empty()) fmt::print("shares of what falls on the slab:\n");
+  for (const SlabShare& share : shares)
+    fmt::print("  {:<12} {}  exact {}\n", share.name, text_of(share.power, grey, emitted), text_of(share.exact, grey));
 }
 
 /// The errors of a single pass are not known.
@@ -81,19 +88,14 @@ Json channels(const Rgbd& value) {
 }
 
 /// What is printed and written.
-Json json_of(const RenderJob& job, const std::optional<SlabScene>& slab, const Measurement& measured) {
+Json json_of(const RenderJob& job, const std::vector<SlabShare>& shares, const Measurement& measured) {
   Json all = {{"scene", job.source}, {"grey", job.scene.grey}};
   all.update(Json::parse(json_of(measured, job.scene)));
-  if (!slab) return all;
-  const auto solutions = solve(*slab);
-  for (const SlabShare& share : shares_of(*slab, measured)) {
-    const Rgbd whole = measured.emitted.mean();
-    all["slab"][share.name] = {
-        {"share", channels(share.power.mean() / whole)},
-        {"standard_error", channels(share.power.standard_error() / whole)},
-        {"exact",
-         {(solutions[0].*share.exact).value, (solutions[1].*share.exact).value, (solutions[2].*share.exact).value}}};
-  }
+  const Rgbd whole = measured.emitted.mean();
+  for (const SlabShare& share : shares)
+    all["slab"][share.name] = {{"share", channels(share.power.mean() / whole)},
+                               {"standard_error", channels(share.power.standard_error() / whole)},
+                               {"exact", share.exact}};
   return all;
 }
 
@@ -101,6 +103,16 @@ std::string page_of(const Json& measurement) {
   std::string_view rest = measure_template();
   const std::string page = up_to(rest, "@measurement@", measurement.dump());
   return page + std::string(rest);
+}
+
+/// Does a detector reach to where light from infinity has not begun?
+bool counts_no_arrivals(const Scene& scene) {
+  if (scene.period || std::none_of(scene.lights.begin(), scene.lights.end(), is_infinite)) return false;
+  return std::any_of(scene.detectors.begin(), scene.detectors.end(), [&](const Detector& detector) {
+    const Box around = bounds_of(detector);
+    const auto* const plane = std::get_if<PlaneDetector>(&detector.kind);
+    return plane || (!around.empty() && !(scene.bounds.contains(around.lo) && scene.bounds.contains(around.hi)));
+  });
 }
 
 void print_measurement(const Measurement& measured, const Scene& scene, size_t detectors) {
@@ -119,6 +131,11 @@ int measure_command(const MeasureOptions& options) {
   check_measurement_file(options.output, job);
   refuse_automatic(job, "vpm measure");
   if (options.seed) job.settings.seed = *options.seed;
+  if (counts_no_arrivals(job.scene))
+    job.notes.push_back(
+        "light from infinity begins at the box around all shapes: detectors that reach beyond count what leaves, not "
+        "what "
+        "comes");
   print_notes(job);
   const std::optional<SlabScene> slab = slab_of(job.scene);
   std::vector<Detector> detectors = job.scene.detectors;
@@ -126,7 +143,8 @@ int measure_command(const MeasureOptions& options) {
   const CancelScope scope(stop_on_signals());
   const PhotonRun run = photon_run(options);
   const Measurement measured = measure(job.scene, job.settings, detectors, run);
-  const Json json = json_of(job, slab, measured);
+  const std::vector<SlabShare> shares = shares_of(slab, measured);
+  const Json json = json_of(job, shares, measured);
   if (const std::filesystem::path output = options.output; !output.empty())
     write_text(output, output.extension() == ".html" ? page_of(json) : json.dump(2) + "\n");
   print_warnings(warnings_of(measured.run.ledger));
@@ -134,7 +152,7 @@ int measure_command(const MeasureOptions& options) {
     fmt::print("{}\n", json.dump(2));
   } else {
     print_measurement(measured, job.scene, job.scene.detectors.size());
-    if (slab) print_slab(*slab, measured, job.scene.grey);
+    print_shares(shares, measured.emitted.mean(), job.scene.grey);
   }
   return measured.run.interrupted ? say_interrupted(run.until, measured.run.passes) : 0;
 }

@@ -20,35 +20,41 @@ Mat4d to_world(const CellLattice& lattice) {
   return map;
 }
 
-/// The values at(number of the cell) other than 0.
+/// The values at(number of the cell), those that are 0 too: so the grid's box is that of the cells.
 template <class Grid, class At>
 openvdb::GridBase::Ptr cells_grid(const std::string& name, const CellLattice& lattice, At&& at) {
   const auto grid = new_grid<Grid>();
   auto accessor = grid->getAccessor();
-  using Value = typename Grid::ValueType;
   for (Vec3i p(0); p.x < lattice.count.x; ++p.x)
     for (p.y = 0; p.y < lattice.count.y; ++p.y)
-      for (p.z = 0; p.z < lattice.count.z; ++p.z)
-        if (const Value value = at(lattice.number_of(p)); value != Value(0.0f))
-          accessor.setValue({p.x, p.y, p.z}, value);
+      for (p.z = 0; p.z < lattice.count.z; ++p.z) accessor.setValue({p.x, p.y, p.z}, at(lattice.number_of(p)));
   grid->setTransform(transform_of(to_world(lattice)));
   grid->setName(name);
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   return grid;
 }
 
-void add_quantity(const std::string& name, const FluenceField& field, const std::vector<Rgb>& values,
-                  openvdb::GridPtrVec& grids) {
-  constexpr std::array kChannels{"_r", "_g", "_b"};
-  for (int c = 0; c < (field.grey ? 1 : 3); ++c)
-    grids.push_back(cells_grid<openvdb::FloatGrid>(field.grey ? name : name + kChannels[static_cast<size_t>(c)],
-                                                   field.lattice, [&](size_t cell) { return values[cell][c]; }));
+constexpr std::array kChannels{"_r", "_g", "_b"};
+
+/// Calls add(name of the grid, channel): one for all channels of grey scenes.
+template <class Add>
+void for_channels(const std::string& name, const FluenceField& field, Add&& add) {
+  for (int c = 0; c < (field.grey ? 1 : 3); ++c) add(field.grey ? name : name + kChannels[static_cast<size_t>(c)], c);
 }
 
-openvdb::GridBase::Ptr flux_grid(const std::string& name, const FluenceField& field,
-                                 const std::array<std::vector<Rgb>, 3>& along) {
-  return cells_grid<openvdb::Vec3SGrid>(name, field.lattice, [&](size_t cell) {
-    return openvdb::Vec3s(mean_channel(along[0][cell]), mean_channel(along[1][cell]), mean_channel(along[2][cell]));
+void add_quantity(const std::string& quantity, const FluenceField& field, const std::vector<Rgb>& values,
+                  openvdb::GridPtrVec& grids) {
+  for_channels(quantity, field, [&](const std::string& name, int c) {
+    grids.push_back(cells_grid<openvdb::FloatGrid>(name, field.lattice, [&](size_t cell) { return values[cell][c]; }));
+  });
+}
+
+void add_flux(const std::string& quantity, const FluenceField& field, const std::array<std::vector<Rgb>, 3>& along,
+              openvdb::GridPtrVec& grids) {
+  for_channels(quantity, field, [&](const std::string& name, int c) {
+    grids.push_back(cells_grid<openvdb::Vec3SGrid>(name, field.lattice, [&](size_t cell) {
+      return openvdb::Vec3s(along[0][cell][c], along[1][cell][c], along[2][cell][c]);
+    }));
   });
 }
 
@@ -62,8 +68,8 @@ openvdb::GridPtrVec grids_of(const FluenceField& field) {
     add_quantity("absorbed_error", field, field.absorbed_error, grids);
   }
   if (!field.flux[0].empty()) {
-    grids.push_back(flux_grid("flux", field, field.flux));
-    if (errors) grids.push_back(flux_grid("flux_error", field, field.flux_error));
+    add_flux("flux", field, field.flux, grids);
+    if (errors) add_flux("flux_error", field, field.flux_error, grids);
   }
   return grids;
 }

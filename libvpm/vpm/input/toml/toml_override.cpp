@@ -91,6 +91,13 @@ void note_replacement(Document& document, const std::vector<std::string>& keys, 
   document.replaced.push_back({fmt::format("{}", fmt::join(keys, ".")), before, text_of(value), option});
 }
 
+/// A table, a list, or a number without a digit before the point; other texts may do without quotes.
+bool is_meant_as_value(const std::string& text) {
+  const std::string_view unsigned_part = std::string_view(text).substr(text.find_first_not_of("+-") == 1 ? 1 : 0);
+  return text.starts_with('{') || text.starts_with('[') ||
+         (unsigned_part.size() > 1 && unsigned_part[0] == '.' && is_number(std::string(1, unsigned_part[1])));
+}
+
 }  // namespace
 
 const Entry* find_entry(const Node::Table& table, const std::string& key) {
@@ -115,17 +122,6 @@ std::string kind_of(const Node& node) {
                                     "a date or time", "an array",   "a table"};
   return kNames[node.value.index()];
 }
-
-namespace {
-
-/// A table, a list, or a number without a digit before the point; other texts may do without quotes.
-bool is_meant_as_value(const std::string& text) {
-  const std::string_view unsigned_part = std::string_view(text).substr(text.find_first_not_of("+-") == 1 ? 1 : 0);
-  return text.starts_with('{') || text.starts_with('[') ||
-         (unsigned_part.size() > 1 && unsigned_part[0] == '.' && is_number(std::string(1, unsigned_part[1])));
-}
-
-}  // namespace
 
 void apply_override(Document& document, const std::string& option) {
   document.sources.push_back(std::make_unique<Source>(Source{"--set " + option, {}}));

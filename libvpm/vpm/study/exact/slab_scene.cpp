@@ -19,9 +19,12 @@ std::optional<AlongAxis> axis_of(const Vec3& direction) {
   return std::nullopt;
 }
 
-/// Is the one shape a box of the one medium? Then the medium is at its corners.
+/// Is the one shape a box of the one medium? Twelve triangles that hold the medium at all corners of the box around
+/// them are that box.
 bool is_box(const Scene& scene, const Box& box) {
+  constexpr size_t kTriangles = 12;
   constexpr float kInset = 1e-3f;  // of its extent
+  if (scene.geometry.triangle_count(0) != kTriangles) return false;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3 place;
     for (int a = 0; a < 3; ++a) {
@@ -49,7 +52,9 @@ bool is_far_inside(const Scene& scene, const Box& box, const BeamLight& beam, co
 std::optional<AlongAxis> light_along(const Scene& scene, const Box& box) {
   if (const auto* const beam = std::get_if<BeamLight>(&scene.lights[0])) {
     const auto along = axis_of(beam->direction);
-    return along && is_far_inside(scene, box, *beam, *along) ? along : std::nullopt;
+    return along && !scene.cyclic[static_cast<size_t>(along->axis)] && is_far_inside(scene, box, *beam, *along)
+               ? along
+               : std::nullopt;
   }
   const auto* const parallel = std::get_if<DirectionalLight>(&scene.lights[0]);
   const auto along = parallel ? axis_of(parallel->direction) : std::nullopt;

@@ -66,7 +66,7 @@ function addSlab() {
 }
 
 function addEnergy() {
-  const rows = ['emitted', 'absorbed_in_media', 'absorbed_on_surfaces', 'escaped'].map(
+  const rows = ['emitted', 'absorbed_in_media', 'absorbed_on_surfaces', 'escaped', 'cut_at_max_events'].map(
       key => ({name: key.replaceAll('_', ' '), flux: data[key]}));
   const columns = [
     {title: 'power, W', words: true, key: row => row.name, cell: row => row.name}, ...fluxColumns('W', row => row.flux)
