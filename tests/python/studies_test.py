@@ -1,5 +1,6 @@
 """Exact solutions, errors and comparisons from Python: those of the command line."""
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -77,3 +78,9 @@ integrator.type = "path"
     assert results["title"] == "ball"
     with pytest.raises(vpm.InputError, match="not the folder of a finished comparison"):
         vpm.read_comparison(tmp_path)
+
+
+def test_exact_solutions_have_the_names_that_the_documentation_says():
+    readme = (Path(__file__).parents[2] / "tools/python/README.md").read_text()
+    lines = [line.split("#")[0] for line in readme.splitlines() if line.startswith("vpm.exact(")]
+    assert lines and all(0 < eval(line, {"vpm": vpm}) < 1 for line in lines)

@@ -29,7 +29,7 @@ class Quantity(NamedTuple):
 def exact(problem: str, **keys: Any) -> dict[str, Quantity]:
     """Solves a problem of `vpm exact` exactly; lists and arrays where it takes several values.
 
-    vpm.exact("slab", tau=2, albedo=0.9, g=0.75)["reflectance"].value
+    vpm.exact("slab", tau=2, albedo=0.9, g=0.75)["reflected"].value
 
     `exact_problems()` lists the problems and their keys. Raises InputError as `vpm exact` does.
     """
