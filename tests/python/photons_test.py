@@ -263,6 +263,26 @@ def test_estimates_are_sums_of_powers_and_kernels():
     assert np.allclose(photons.estimate(points, 0.3, directions=away, g=G), scattered @ powers, rtol=1e-4)
 
 
+def test_a_map_of_photons_of_a_grid_gathers_power_over_density():
+    """Where the density is a third at one end, and 1 at the other."""
+    values = np.ones((9, 9, 9), np.float32)
+    values[:5] = 1 / 3
+    transform = np.diag([0.25, 0.25, 0.25, 1.0])
+    transform[:3, 3] = -1
+    made = vpm.Scene({
+        "camera": {"position": [0, 0, 5], "target": [0, 0, 0]},
+        "media": {"cloud": {"type": "grid", "sigma_t": 2.0, "albedo": 0.8, "grid": vpm.Grid(values, transform)}},
+        "lights": [{"type": "directional", "direction": [0.3, -1, 0.2], "irradiance": 1}],
+        "integrator": {"type": "photon-map", "photons": {"emitted": 5000}, "volume": {"radius": 0.1}}})
+    rows = vpm.photons(made).array
+    assert rows["density"].min() < 0.4
+    points = np.float32([[-0.6, 0, 0], [0.6, 0.1, 0]])
+    distance = np.linalg.norm(rows["position"][None] - points[:, None], axis=2)
+    sums = ((distance < 0.4)[..., None] * (rows["power"] / rows["density"][:, None])).sum(axis=1)
+    found = vpm.PhotonMap(rows).estimate(points, 0.4, kernel="constant")
+    assert found == pytest.approx(sums / (4 / 3 * np.pi * 0.4**3), rel=1e-4)
+
+
 def test_a_map_gathers_what_a_render_gathers():
     scene = room({"surface": {"type": "radius", "radius": 0.3}}, fog=False)
     direction, far = view_ray()
