@@ -60,13 +60,23 @@ std::array<uint8_t, 3> colour_of(double share) {
   return bytes;
 }
 
-std::string picture_of(const Raster& raster) {
+/// Each value as a square of so many pixels: viewers smooth what they enlarge
+/// (findings/librsvg-smooths-every-picture.sh).
+std::string picture_of(const Raster& raster, int square) {
   std::vector<uint8_t> bytes;
-  for (const float value : raster.values) {
-    const auto colour = colour_of(raster.largest > 0.0f ? double{value} / double{raster.largest} : 0.0);
-    bytes.insert(bytes.end(), colour.begin(), colour.end());
-  }
-  return base64(png_of(raster.width, raster.height, bytes));
+  for (int y = 0; y < square * raster.height; ++y)
+    for (int x = 0; x < square * raster.width; ++x) {
+      const float value = raster.values[static_cast<size_t>(y / square * raster.width + x / square)];
+      const auto colour = colour_of(raster.largest > 0.0f ? double{value} / double{raster.largest} : 0.0);
+      bytes.insert(bytes.end(), colour.begin(), colour.end());
+    }
+  return base64(png_of(square * raster.width, square * raster.height, bytes));
+}
+
+/// A coordinate of a box, of which rounding may have left a trace where it is 0.
+double tidy(float coordinate, float extent) {
+  constexpr float kRounding = 1e-6f;
+  return std::abs(coordinate) < kRounding * extent ? 0.0 : double{coordinate};
 }
 
 std::string escaped(const std::string& text) {
@@ -114,9 +124,10 @@ std::string slice_drawing(const DensityGrid& grid, const SliceWish& wish, const 
     throw InputError(fmt::format("--slice {}={:g}: the grid goes from {:g} to {:g} m", kAxes[axis], at, lo, hi));
   const Raster raster = raster_of(grid, box, axis, at);
   const auto [right, up] = axes_across(axis);
-  constexpr double kLonger = 480.0, kMargin = 88.0, kScale = 150.0;
-  const double one = kLonger / std::max(raster.width, raster.height), width = one * raster.width,
-               height = std::max(120.0, one * raster.height);
+  constexpr int kLonger = 480;  // pixels, of what is drawn in squares
+  constexpr double kMargin = 88.0, kScale = 150.0;
+  const int square = std::max(1, kLonger / std::max(raster.width, raster.height));
+  const double width = square * raster.width, tall = square * raster.height, height = std::max(120.0, tall);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} {1:.0f}' "
       "font-family='sans-serif' font-size='12'>\n<rect width='100%' height='100%' fill='white'/>\n",
@@ -124,17 +135,18 @@ std::string slice_drawing(const DensityGrid& grid, const SliceWish& wish, const 
   svg += fmt::format("<text x='{}' y='24' font-size='14'>{}, {} = {:.4g} m</text>\n", kMargin, escaped(title),
                      kAxes[axis], at);
   svg += fmt::format(
-      "<image x='{}' y='40' width='{:.1f}' height='{:.1f}' style='image-rendering:pixelated' "
+      "<image x='{}' y='40' width='{:.1f}' height='{:.1f}' "
       "href='data:image/png;base64,{}'/>\n",
-      kMargin, width, one * raster.height, picture_of(raster));
-  const double bottom = 40.0 + one * raster.height;
+      kMargin, width, tall, picture_of(raster, square));
+  const double bottom = 40.0 + tall;
+  const auto end = [&](const Vec3& corner, int a) { return tidy(corner[a], box.extent()[a]); };
   svg += fmt::format("<text x='{}' y='{:.1f}'>{} = {:.4g} m</text>\n", kMargin, bottom + 18.0, kAxes[right],
-                     box.lo[right]);
+                     end(box.lo, right));
   svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{:.4g}</text>\n", kMargin + width, bottom + 18.0,
-                     box.hi[right]);
+                     end(box.hi, right));
   svg += fmt::format("<text x='{}' y='{:.1f}' text-anchor='end'>{} = {:.4g}</text>\n", kMargin - 6.0, bottom, kAxes[up],
-                     box.lo[up]);
-  svg += fmt::format("<text x='{}' y='50' text-anchor='end'>{:.4g}</text>\n", kMargin - 6.0, box.hi[up]);
+                     end(box.lo, up));
+  svg += fmt::format("<text x='{}' y='50' text-anchor='end'>{:.4g}</text>\n", kMargin - 6.0, end(box.hi, up));
   svg += scale_of(kMargin + width + 16.0, 46.0, height - 12.0, raster.largest, unit);
   return svg + "</svg>\n";
 }
