@@ -15,7 +15,6 @@
 #include "vpm/input/grid/field_file.h"
 #include "vpm/integrators/photon_map/stored_photons.h"
 #include "vpm/job/fluence.h"
-#include "vpm/job/measurement.h"
 #include "vpm/job/photon_files.h"
 #include "vpm/study/exact/slab_scene.h"
 
@@ -164,48 +163,30 @@ std::shared_ptr<FluenceField> fluence_of(const std::shared_ptr<SceneJob>& scene,
   });
 }
 
-/// A measurement, and what is exact where the scene is a slab.
+/// Measured shares of a slab, and the rest as JSON.
 struct Measured {
-  Measurement measurement;
   std::string json;
-  std::optional<std::array<exact::SlabSolution, 3>> slab{};
+  std::vector<SlabShare> shares;
 };
 
 std::shared_ptr<Measured> measured_of(const std::shared_ptr<SceneJob>& scene, std::optional<uint64_t> seed, int passes,
                                       const std::optional<double>& seconds) {
   const PhotonRun run = photon_run(passes, seconds);
   return collect<Measured>(scene, seed, Settings::given, [&](const Scene& of, const RenderSettings& settings) {
-    const std::optional<SlabScene> slab = slab_of(of);
-    std::vector<Detector> detectors = of.detectors;
-    if (slab) detectors.insert(detectors.end(), slab->faces.begin(), slab->faces.end());
-    Measured measured{measure(of, settings, detectors, run), {}};
-    measured.json = json_of(measured.measurement, of);
-    if (slab) measured.slab = solve(*slab);
-    return measured;
+    const SlabMeasurement measured = measure_scene(of, settings, run);
+    return Measured{json_of(measured.measurement, of), measured.shares};
   });
 }
 
 py::tuple channels_of(const Rgbd& value) { return py::make_tuple(value.r, value.g, value.b); }
 
-/// The value of each channel.
-py::tuple exact_of(const std::array<exact::SlabSolution, 3>& slab, exact::Bounded exact::SlabSolution::*value) {
-  return py::make_tuple((slab[0].*value).value, (slab[1].*value).value, (slab[2].*value).value);
-}
-
 py::object slab_dict(const Measured& measured) {
-  if (!measured.slab) return py::none();
-  const Measurement& m = measured.measurement;
-  const auto& faces = m.detectors;
-  const Rgbd emitted = m.emitted.mean();
+  if (measured.shares.empty()) return py::none();
   py::dict slab;
-  const auto add = [&](const char* name, const ChannelMoments& power, exact::Bounded exact::SlabSolution::*value) {
-    slab[name] = py::make_tuple(channels_of(power.mean() / emitted), channels_of(power.standard_error() / emitted),
-                                exact_of(*measured.slab, value));
-  };
-  add("reflected", faces[faces.size() - 2].forward, &exact::SlabSolution::reflected);
-  add("transmitted", faces[faces.size() - 1].forward, &exact::SlabSolution::transmitted);
-  add("absorbed", m.absorbed_in_media, &exact::SlabSolution::absorbed);
-  return std::move(slab);
+  for (const SlabShare& share : measured.shares)
+    slab[share.name] =
+        py::make_tuple(channels_of(share.share), channels_of(share.standard_error), channels_of(share.exact));
+  return slab;
 }
 
 /// An array (nx, ny, nz, 3) of one of a field's quantities.
@@ -226,7 +207,7 @@ py::object flux_array(const FluenceField& field, const std::array<std::vector<Rg
   float* to = array.mutable_data();
   for (const std::vector<Rgb>& axis : along)
     to = std::copy_n(reinterpret_cast<const float*>(axis.data()), 3 * axis.size(), to);
-  return std::move(array);
+  return array;
 }
 
 /// The rows of an array (n, 3), read where they are.

@@ -1,7 +1,6 @@
 // vpm measure: scene file in; power through its detectors, with errors, out.
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -29,21 +28,19 @@ void check_measurement_file(const std::filesystem::path& path, const RenderJob& 
   check_not_read(path, job);
 }
 
-/// "0.097395 +- 0.00009", of grey scenes; of others for each channel. As a share of `whole`; "none" where that is 0.
-std::string text_of(const ChannelMoments& power, bool grey, const Rgbd& whole = Rgbd(1.0)) {
-  const Rgbd mean = power.mean() / whole, error = power.standard_error() / whole;
-  const auto one = [&](int c) { return whole[c] == 0.0 ? "none" : fmt::format("{:.6g} +- {:.2g}", mean[c], error[c]); };
+/// A text of each channel; of grey scenes of all.
+template <class One>
+std::string of_channels(bool grey, One&& one) {
   return grey ? one(0) : fmt::format("({}, {}, {})", one(0), one(1), one(2));
 }
 
-/// What is within its error of 0 is 0.
-double value_of(const exact::Bounded& bounded) {
-  return std::abs(bounded.value) <= bounded.error ? 0.0 : bounded.value;
+/// "0.097395 +- 0.00009"; "none" of a share of no light.
+std::string text_of(const Rgbd& value, const Rgbd& error, bool grey) {
+  return of_channels(
+      grey, [&](int c) { return std::isnan(value[c]) ? "none" : fmt::format("{:.6g} +- {:.2g}", value[c], error[c]); });
 }
-
-std::string text_of(const std::array<double, 3>& values, bool grey) {
-  return grey ? fmt::format("{:.7g}", values[0])
-              : fmt::format("({:.7g}, {:.7g}, {:.7g})", values[0], values[1], values[2]);
+std::string text_of(const ChannelMoments& power, bool grey) {
+  return text_of(power.mean(), power.standard_error(), grey);
 }
 
 void print_detector(const DetectorReading& reading, bool grey) {
@@ -56,31 +53,14 @@ void print_detector(const DetectorReading& reading, bool grey) {
   fmt::print("    backward  {} W, {} photons\n", text_of(reading.backward, grey), reading.backward_count);
 }
 
-/// What a slab does with light, of what falls on it.
-struct SlabShare {
-  const char* name;
-  const ChannelMoments& power;
-  std::array<double, 3> exact;
-};
-std::vector<SlabShare> shares_of(const std::optional<SlabScene>& slab, const Measurement& measured) {
-  if (!slab) return {};
-  const auto solutions = solve(*slab);
-  const auto exact_of = [&](exact::Bounded exact::SlabSolution::*value) {
-    return std::array{value_of(solutions[0].*value), value_of(solutions[1].*value), value_of(solutions[2].*value)};
-  };
-  const DetectorReading* const faces = measured.detectors.data() + (measured.detectors.size() - slab->faces.size());
-  return {{"reflected", faces[0].forward, exact_of(&exact::SlabSolution::reflected)},
-          {"transmitted", faces[1].forward, exact_of(&exact::SlabSolution::transmitted)},
-          {"absorbed", measured.absorbed_in_media, exact_of(&exact::SlabSolution::absorbed)}};
-}
-
-void print_shares(const std::vector<SlabShare>& shares, const Rgbd& emitted, bool grey) {
+void print_shares(const std::vector<SlabShare>& shares, bool grey) {
   if (!shares.empty()) fmt::print("shares of what falls on the slab:\n");
   for (const SlabShare& share : shares)
-    fmt::print("  {:<12} {}  exact {}\n", share.name, text_of(share.power, grey, emitted), text_of(share.exact, grey));
+    fmt::print("  {:<12} {}  exact {}\n", share.name, text_of(share.share, share.standard_error, grey),
+               of_channels(grey, [&](int c) { return fmt::format("{:.7g}", share.exact[c]); }));
 }
 
-/// The errors of a single pass are not known.
+/// What is not known, as the errors of a single pass, is null.
 Json channels(const Rgbd& value) {
   Json list = Json::array();
   for (int c = 0; c < 3; ++c) list.push_back(std::isnan(value[c]) ? Json() : Json(value[c]));
@@ -88,14 +68,13 @@ Json channels(const Rgbd& value) {
 }
 
 /// What is printed and written.
-Json json_of(const RenderJob& job, const std::vector<SlabShare>& shares, const Measurement& measured) {
+Json json_of(const RenderJob& job, const SlabMeasurement& measured) {
   Json all = {{"scene", job.source}, {"grey", job.scene.grey}};
-  all.update(Json::parse(json_of(measured, job.scene)));
-  const Rgbd whole = measured.emitted.mean();
-  for (const SlabShare& share : shares)
-    all["slab"][share.name] = {{"share", channels(share.power.mean() / whole)},
-                               {"standard_error", channels(share.power.standard_error() / whole)},
-                               {"exact", share.exact}};
+  all.update(Json::parse(json_of(measured.measurement, job.scene)));
+  for (const SlabShare& share : measured.shares)
+    all["slab"][share.name] = {{"share", channels(share.share)},
+                               {"standard_error", channels(share.standard_error)},
+                               {"exact", channels(share.exact)}};
   return all;
 }
 
@@ -105,6 +84,9 @@ std::string page_of(const Json& measurement) {
   return page + std::string(rest);
 }
 
+constexpr const char* kNoArrivals =
+    "light from infinity begins at the box around all shapes: detectors that reach beyond count what leaves, not what "
+    "comes";
 /// Does a detector reach to where light from infinity has not begun?
 bool counts_no_arrivals(const Scene& scene) {
   if (scene.period || std::none_of(scene.lights.begin(), scene.lights.end(), is_infinite)) return false;
@@ -115,9 +97,9 @@ bool counts_no_arrivals(const Scene& scene) {
   });
 }
 
-void print_measurement(const Measurement& measured, const Scene& scene, size_t detectors) {
+void print_measurement(const Measurement& measured, const Scene& scene) {
   fmt::print("{}, {} photons\n", passes_text(measured.run.passes), measured.run.ledger.emitted_count);
-  for (size_t i = 0; i < detectors; ++i) print_detector(measured.detectors[i], scene.grey);
+  for (size_t i = 0; i < scene.detectors.size(); ++i) print_detector(measured.detectors[i], scene.grey);
   fmt::print("  emitted {} W; absorbed in media {} W, on surfaces {} W; escaped {} W\n",
              text_of(measured.emitted, scene.grey), text_of(measured.absorbed_in_media, scene.grey),
              text_of(measured.absorbed_on_surfaces, scene.grey), text_of(measured.escaped, scene.grey));
@@ -131,30 +113,23 @@ int measure_command(const MeasureOptions& options) {
   check_measurement_file(options.output, job);
   refuse_automatic(job, "vpm measure");
   if (options.seed) job.settings.seed = *options.seed;
-  if (counts_no_arrivals(job.scene))
-    job.notes.push_back(
-        "light from infinity begins at the box around all shapes: detectors that reach beyond count what leaves, not "
-        "what "
-        "comes");
+  if (counts_no_arrivals(job.scene)) job.notes.push_back(kNoArrivals);
   print_notes(job);
-  const std::optional<SlabScene> slab = slab_of(job.scene);
-  std::vector<Detector> detectors = job.scene.detectors;
-  if (slab) detectors.insert(detectors.end(), slab->faces.begin(), slab->faces.end());
   const CancelScope scope(stop_on_signals());
   const PhotonRun run = photon_run(options);
-  const Measurement measured = measure(job.scene, job.settings, detectors, run);
-  const std::vector<SlabShare> shares = shares_of(slab, measured);
-  const Json json = json_of(job, shares, measured);
+  const SlabMeasurement measured = measure_scene(job.scene, job.settings, run);
+  const PhotonPasses& passes = measured.measurement.run;
+  const Json json = json_of(job, measured);
   if (const std::filesystem::path output = options.output; !output.empty())
     write_text(output, output.extension() == ".html" ? page_of(json) : json.dump(2) + "\n");
-  print_warnings(warnings_of(measured.run.ledger));
+  print_warnings(warnings_of(passes.ledger));
   if (options.json) {
     fmt::print("{}\n", json.dump(2));
   } else {
-    print_measurement(measured, job.scene, job.scene.detectors.size());
-    print_shares(shares, measured.emitted.mean(), job.scene.grey);
+    print_measurement(measured.measurement, job.scene);
+    print_shares(measured.shares, job.scene.grey);
   }
-  return measured.run.interrupted ? say_interrupted(run.until, measured.run.passes) : 0;
+  return passes.interrupted ? say_interrupted(run.until, passes.passes) : 0;
 }
 
 }  // namespace vpm::tools

@@ -71,6 +71,17 @@ bool has_moments(const Phase& phase) {
          !(lobes && std::max(std::abs(lobes->g1), std::abs(lobes->g2)) > kMost);
 }
 
+/// The solutions of the channels; equal ones are solved once.
+std::array<exact::SlabSolution, 3> solve(const SlabScene& slab) {
+  std::array<exact::SlabSolution, 3> solutions;
+  for (size_t c = 0; c < 3; ++c) {
+    const exact::Slab &of = slab.channels[c], &first = slab.channels[0];
+    const bool same = c > 0 && of.tau == first.tau && of.albedo == first.albedo;
+    solutions[c] = same ? solutions[0] : exact::solve_slab(of);
+  }
+  return solutions;
+}
+
 }  // namespace
 
 std::optional<SlabScene> slab_of(const Scene& scene) {
@@ -99,14 +110,31 @@ std::optional<SlabScene> slab_of(const Scene& scene) {
   return slab;
 }
 
-std::array<exact::SlabSolution, 3> solve(const SlabScene& slab) {
-  std::array<exact::SlabSolution, 3> solutions;
-  for (size_t c = 0; c < 3; ++c) {
-    const exact::Slab &of = slab.channels[c], &first = slab.channels[0];
-    const bool same = c > 0 && of.tau == first.tau && of.albedo == first.albedo;
-    solutions[c] = same ? solutions[0] : exact::solve_slab(of);
-  }
-  return solutions;
+SlabMeasurement measure_scene(const Scene& scene, const RenderSettings& settings, const PhotonRun& run) {
+  const std::optional<SlabScene> slab = slab_of(scene);
+  std::vector<Detector> detectors = scene.detectors;
+  if (slab) detectors.insert(detectors.end(), slab->faces.begin(), slab->faces.end());
+  SlabMeasurement measured{measure(scene, settings, detectors, run)};
+  if (!slab) return measured;
+  const Measurement& found = measured.measurement;
+  const DetectorReading* const faces = &found.detectors[scene.detectors.size()];
+  const auto solutions = solve(*slab);
+  const Rgbd whole = found.emitted.mean();
+  // What the solver does not tell from 0 is 0.
+  const auto true_share = [&](size_t c, exact::Bounded exact::SlabSolution::*value) {
+    const exact::Bounded& of = solutions[c].*value;
+    return std::abs(of.value) <= of.error ? 0.0 : of.value;
+  };
+  const auto add = [&](const char* name, const ChannelMoments& power, exact::Bounded exact::SlabSolution::*value) {
+    measured.shares.push_back({name,
+                               power.mean() / whole,
+                               power.standard_error() / whole,
+                               {true_share(0, value), true_share(1, value), true_share(2, value)}});
+  };
+  add("reflected", faces[0].forward, &exact::SlabSolution::reflected);
+  add("transmitted", faces[1].forward, &exact::SlabSolution::transmitted);
+  add("absorbed", found.absorbed_in_media, &exact::SlabSolution::absorbed);
+  return measured;
 }
 
 }  // namespace vpm

@@ -1,10 +1,11 @@
-// Scenes that are a plane layer under a beam: the problem that exact/slab.h solves.
+// Scenes that are a plane layer under a beam: the problem that exact/slab.h solves, and what is measured of them.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <vector>
 
+#include "vpm/job/measurement.h"
 #include "vpm/scene/scene.h"
 #include "vpm/study/exact/slab.h"
 
@@ -21,7 +22,18 @@ struct SlabScene {
 /// beam as the box is thick, so that hardly any light leaves there. Nothing for others.
 std::optional<SlabScene> slab_of(const Scene& scene);
 
-/// The solutions of the channels; equal ones are solved once.
-std::array<exact::SlabSolution, 3> solve(const SlabScene& slab);
+/// What a slab does with a part of the light that falls on it, as measured and in truth: shares of each channel, NaN
+/// where that has no light.
+struct SlabShare {
+  const char* name;  // "reflected", "transmitted" or "absorbed"
+  Rgbd share, standard_error, exact;
+};
+/// Of a scene: its own detectors are measured, and where it is a slab its faces as well.
+struct SlabMeasurement {
+  Measurement measurement;
+  std::vector<SlabShare> shares{};  // none where it is no slab
+};
+/// Throws as measure() does.
+SlabMeasurement measure_scene(const Scene& scene, const RenderSettings& settings, const PhotonRun& run);
 
 }  // namespace vpm
