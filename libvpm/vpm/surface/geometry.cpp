@@ -91,6 +91,7 @@ void Geometry::Impl::look_at_all(Query& query, uint32_t layers_seen) const {
 
 void Geometry::commit() {
   impl_->tree.commit();
+  impl_->around = bounds();
   impl_->lay_out();
   impl_->committed = true;
 }
@@ -112,6 +113,7 @@ Geometry::First Geometry::first(const Ray& ray, float t_max, uint32_t layers, st
   assert(impl_->committed);
   assert(is_finite(ray.origin) && is_finite(ray.direction));
   if (!(t_max > kMinT)) return {};
+  if (impl_->is_left_by(ray)) return {{}, t_max};
   Query query(ray, t_max, impl_->size, without);
   if (impl_->is_small)
     impl_->look_at_all(query, layers);

@@ -25,6 +25,7 @@ struct Geometry::Impl {
   std::deque<ShapeData> shapes;
   std::vector<double> areas;  // m^2
   std::vector<Box> bounds;
+  Box around;  // all shapes, once committed
   std::vector<Layer> layers;
   EmbreeTree tree{shapes};
   float size = 0.0f;                          // m: of the box around all shapes, and its distance from the origin
@@ -36,6 +37,15 @@ struct Geometry::Impl {
 
   /// How far beyond a hit one that coincides with it is looked for, m.
   float margin() const { return 0x1p-18f * size; }
+
+  /// Does the ray lead away from the box around all shapes, outside of it? It meets nothing then.
+  bool is_left_by(const Ray& ray) const {
+    bool left = false;
+    for (int axis = 0; axis < 3; ++axis)
+      left |= ((ray.origin[axis] > around.hi[axis]) & (ray.direction[axis] >= 0.0f)) |
+              ((ray.origin[axis] < around.lo[axis]) & (ray.direction[axis] <= 0.0f));
+    return left;
+  }
 
   /// Takes note of the shape that was added last, and says its number.
   uint32_t note(double area, const Box& box, Layer layer) {
