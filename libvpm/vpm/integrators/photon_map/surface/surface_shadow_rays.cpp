@@ -3,6 +3,7 @@
 
 #include "vpm/base/counters.h"
 #include "vpm/base/even_points.h"
+#include "vpm/base/warp.h"
 #include "vpm/light/emission_density.h"
 #include "vpm/surface/shading.h"
 
@@ -35,9 +36,19 @@ Rgb SurfaceShadowRays::sent(const SurfaceView& view, const Receiver& side, EyeWo
   return result;
 }
 
+DirectSample SurfaceShadowRays::from_even_sky(int light, const Rgb& radiance, const Receiver& side,
+                                              const ShadowRays& rays) const {
+  const Vec3 direction = cosine_hemisphere(side.normal, rays.rng.uniform2());
+  const float pdf = glm::dot(side.normal, direction) / kPi;
+  if (!(pdf > 0.0f)) return {};
+  return {direction, radiance / pdf * visibility(rays, {side.point, direction}, kInfinity, light, side.medium), pdf};
+}
+
 Rgb SurfaceShadowRays::sent_of(int light, const SurfaceView& view, const Receiver& side, EyeWork& work) const {
   count(work.counters.shadow_rays);
-  const DirectSample sample = sample_direct({scene_, *transmittance_, work.rng, work.counters.walk}, light, side);
+  const ShadowRays rays{scene_, *transmittance_, work.rng, work.counters.walk};
+  const std::optional<Rgb> even = even_radiance(scene_.lights[light]);
+  const DirectSample sample = even ? from_even_sky(light, *even, side, rays) : sample_direct(rays, light, side);
   if (is_black(sample.irradiance)) return Rgb(0.0f);
   const ScatterValue scattered = scatter_value(view.material, view.hit, view.travel, sample.direction);
   return scattered.value * scattered.radiance_scale * sample.irradiance;
