@@ -137,7 +137,7 @@ TEST_F(Checkpoint, TellsWhereItsRenderIsReadFrom) {
   EXPECT_EQ(result.film.sums(), some_result().film.sums());
   for (const char* damaged : {"origin 1\nscene=a\\b\n", "origin 1\nseed=-1\n", "origin 1\nauto=1\n", "origin 1\nseed\n",
                               "origin\n", "origins 0\n"}) {
-    put("vpm checkpoint of a render\nformat 9\nidentity 0\n" + std::string(damaged));
+    put("vpm checkpoint of a render\nformat 10\nidentity 0\n" + std::string(damaged));
     refuses({}, "it does not say w");
   }
 }
@@ -174,7 +174,7 @@ TEST_F(Checkpoint, ThatIsMissingOrDamagedIsRefused) {
   refuses(kRender, "there is no such file");
   std::ofstream(path_) << "a text";
   refuses(kRender, "it is no checkpoint");
-  std::ofstream(path_) << "vpm checkpoint of a render\nformat 9\nidentity 2\nrender.seed=1\n";
+  std::ofstream(path_) << "vpm checkpoint of a render\nformat 10\nidentity 2\nrender.seed=1\n";
   refuses(kRender, "it is damaged or not whole");
   write_checkpoint(path_, kRender, kOrigin, some_result());
   const uintmax_t size = fs::file_size(path_);
@@ -211,11 +211,11 @@ std::string bytes_of(T number) {
 TEST_F(Checkpoint, OfAnotherFormatIsRefused) {
   write_checkpoint(path_, kRender, kOrigin, some_result());
   const std::string content = bytes();
-  put(with(content, "format 9\n", "format 10\n"));
-  refuses(kRender, "it is written by another format of checkpoints, 10; this program reads 9");
+  put(with(content, "format 10\n", "format 11\n"));
+  refuses(kRender, "it is written by another format of checkpoints, 11; this program reads 10");
   EXPECT_THROW(checkpoint_identity(path_), InputError);
-  put(with(content, "format 9\n", ""));  // as they were before they told it
-  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 9");
+  put(with(content, "format 10\n", ""));  // as they were before they told it
+  refuses(kRender, "it is written by another format of checkpoints, 1; this program reads 10");
 }
 
 TEST_F(Checkpoint, WithARightChecksumOfFieldsThatCannotBeIsRefused) {
@@ -291,7 +291,7 @@ TEST_F(Checkpoint, SeedsOfTheFuzzTargetAreStillAcceptedOrRefused) {
   };
   constexpr const char* kOld = "format_1";  // a whole file, written before files told their format
   put(seed(folder / kOld));
-  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 9; render again");
+  refuses(kFuzzIdentity, "it is written by another format of checkpoints, 1; this program reads 10; render again");
   int accepted = 0;
   size_t refused = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {

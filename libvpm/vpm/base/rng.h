@@ -23,7 +23,9 @@ enum class RngUse : uint64_t {
   pilot = 10,
   flight = 11,
   plane = 12,
-  sequence = 13
+  sequence = 13,
+  square = 14,
+  lamp = 15
 };
 
 /// A permuted congruential generator with 128 bits of state [ONeill2014, sec. 6.3, XSL RR]. Equal (seed, stream,

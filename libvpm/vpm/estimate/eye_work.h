@@ -15,6 +15,7 @@
 namespace vpm {
 
 class EyeSegment;
+class SharedGather;
 
 /// Buffers, one set for each thread. They outlive rays, so that rays allocate nothing.
 struct EyeScratch {
@@ -45,7 +46,9 @@ inline constexpr size_t kEyeRays = 64;
 struct EyeRay {
   Ray ray;
   EyeWork work;
-  KernelEstimate radiance{};  // that is estimated along it, W/(m^2 sr)
+  SharedGather* shared = nullptr;  // with the rays of its square of pixels; null: it gathers for itself
+  bool leads = false;              // does it gather for them? It is followed before they are
+  KernelEstimate radiance{};       // that is estimated along it, W/(m^2 sr)
 };
 
 }  // namespace vpm

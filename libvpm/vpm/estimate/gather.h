@@ -60,6 +60,14 @@ using AskedGather = GatherRule<AskedRadius>;
 /// As it is in one pass: the radius is in m, > 0.
 using GatherSettings = GatherRule<float>;
 
+/// The variance along an axis, m^2, of kernels in `dimension` dimensions; of lines across a ray, along each of the two
+/// axes. 0 where kernels have no one variance: where a count decides their radii, and those of order 4.
+inline float variance_of(const GatherSettings& gather, int dimension) {
+  if (gather.goes_by_count()) return 0.0f;
+  const float unit = kernel_variance(gather.kernel, dimension);
+  return (dimension == 1 ? 0.5f * unit : unit) * gather.radius * gather.radius;
+}
+
 /// What gathering counts.
 struct GatherCounters {
   uint64_t searches = 0;      // of maps: usually one per estimate; more at borders and where radii are asked for

@@ -12,6 +12,7 @@ struct EyeCounters {
   uint64_t steps = 0;  // marching steps in media
   uint64_t volume_queries = 0;
   uint64_t surface_queries = 0;
+  uint64_t shared_gathers = 0;  // taken from the ray of a neighbouring pixel: SharedGather
   uint64_t used_in_media = 0, by_count_in_media = 0, short_in_media = 0;  // of GatherCounters: those of media
   uint64_t shadow_rays = 0;
   uint64_t gather_rays = 0;         // of final gathering
@@ -29,6 +30,7 @@ struct EyeCounters {
                       Counter{"marching_steps", &E::steps},
                       Counter{"volume_queries", &E::volume_queries},
                       Counter{"surface_queries", &E::surface_queries},
+                      Counter{"gathers_shared", &E::shared_gathers},
                       Counter{"photons_used_in_media", &E::used_in_media},
                       Counter{"sums_by_count_in_media", &E::by_count_in_media},
                       Counter{"sums_by_count_in_media_of_fewer_photons", &E::short_in_media},

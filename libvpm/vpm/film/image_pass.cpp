@@ -1,118 +1,93 @@
 // Tiles of pixels, each pixel sample with random numbers of its own.
 #include "vpm/film/image_pass.h"
 
-#include <array>
+#include <algorithm>
 #include <vector>
 
 #include "vpm/base/clock.h"
 #include "vpm/base/parallel.h"
+#include "vpm/film/pixel_squares.h"
 #include "vpm/film/view_layers.h"
 
 namespace vpm {
 namespace {
 
-constexpr int kTile = 16;      // pixels along an edge; a tile is a chunk of parallel work
-constexpr int kBlockEdge = 8;  // of pixels whose rays are followed together
-static_assert(kBlockEdge * kBlockEdge == kEyeRays && kTile % kBlockEdge == 0);
+constexpr int kTile = PixelSquares::kTile;
 
-/// A rectangle of pixels, without `end`, in an order in which kBlock after kBlock lie side by side.
-class PixelBlock {
- public:
-  PixelBlock(const glm::ivec2& begin, const glm::ivec2& end) {
-    constexpr int kSquare = 4;  // pixels along an edge
-    static_assert(kSquare * kSquare == kBlock);
-    for (int y = begin.y; y < end.y; y += kSquare)
-      for (int x = begin.x; x < end.x; x += kSquare) add({x, y}, glm::min(glm::ivec2(x, y) + kSquare, end));
-  }
-  std::span<const glm::ivec2> pixels() const { return {pixels_.data(), size_}; }
-
- private:
-  void add(const glm::ivec2& begin, const glm::ivec2& end) {
-    for (int y = begin.y; y < end.y; ++y)
-      for (int x = begin.x; x < end.x; ++x) pixels_[size_++] = {x, y};
-  }
-
-  std::array<glm::ivec2, kEyeRays> pixels_;
-  size_t size_ = 0;
-};
-
-/// The tiles that meet the pixels which are rendered, counted as pixels are.
-PixelRect tiles_of(const Camera& camera) {
-  const PixelRect pixels = camera.rendered();
-  const auto end = [](int pixel) { return (pixel + kTile - 1) / kTile; };
-  return {pixels.x0 / kTile, pixels.y0 / kTile, end(pixels.x1), end(pixels.y1)};
+/// The pixels that are rendered: those of the tiles of kTile pixels, from the corner of the picture, that meet what is
+/// asked for.
+PixelRect pixels_of_tiles(const Camera& camera) {
+  const PixelRect asked = camera.rendered();
+  const auto end = [](int pixel, int most) { return std::min((pixel + kTile - 1) / kTile * kTile, most); };
+  return {asked.x0 / kTile * kTile, asked.y0 / kTile * kTile, end(asked.x1, camera.width),
+          end(asked.y1, camera.height)};
 }
 
-/// What the rays of a tile share.
-struct TileWork {
-  EyeCounters& counters;
-  EyeScratch scratch;
-  std::vector<Rng> rngs{};  // of the rays of a block
-  std::vector<EyeRay> rays{};
+/// What all tiles of a pass have.
+struct ImagePass {
+  const Scene& scene;
+  const PassSettings& settings;
+  int number;
+  const RadianceOfRays& radiance;
+  PixelSquares squares;
+  PixelRect shown;
+  ViewSums& views;
+  Pass& result;
 };
 
-/// One sample of each pixel of a block.
-void sample_block(const Scene& scene, const PassSettings& settings, int pass, const RadianceOfRays& radiance,
-                  const PixelBlock& block, int sample, TileWork& tile) {
-  const Camera& camera = scene.camera;
-  const int samples = settings.samples_per_pixel;
-  tile.rays.clear();
-  tile.rngs.clear();
-  tile.rngs.reserve(kEyeRays);
-  for (const glm::ivec2& pixel : block.pixels()) {
-    const size_t number = static_cast<size_t>(pixel.y) * camera.width + pixel.x;
-    Rng& rng = tile.rngs.emplace_back(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass)),
-                                      number * samples + sample);
-    const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(camera.filter, rng.uniform2());
-    tile.rays.push_back({camera.ray(film), {rng, tile.counters, tile.scratch, number}});
-  }
-  radiance(tile.rays);
-}
-
-void render_block(const Scene& scene, const PassSettings& settings, const RadianceOfRays& radiance,
-                  const PixelBlock& block, TileWork& tile, int number, Pass& pass) {
-  std::array<SampleMean, kEyeRays> means;
+/// The tile of squares at a corner. What of it is not shown is followed, too: bundles are those of the whole picture.
+void render_tile(const ImagePass& pass, const glm::ivec2& corner, EyeCounters& counters) {
+  const Camera& camera = pass.scene.camera;
+  const PassSettings& settings = pass.settings;
+  const PixelOrder order(corner, {camera.width, camera.height}, pass.squares);
+  const auto is_shown = [&](const glm::ivec2& p) {
+    return p.x >= pass.shown.x0 && p.x < pass.shown.x1 && p.y >= pass.shown.y0 && p.y < pass.shown.y1;
+  };
+  OrderedRays rays(camera, order, pass.squares.edge, counters);
+  std::vector<SampleMean> means(order.items().size());
   for (int sample = 0; sample < settings.samples_per_pixel; ++sample) {
-    sample_block(scene, settings, number, radiance, block, sample, tile);
-    for (size_t i = 0; i < tile.rays.size(); ++i) means[i].add(tile.rays[i].radiance, tile.counters);
+    const auto pixel_of = [](const PixelOrder::Item& item) { return item.pixel; };
+    const auto rng_of = [&](const PixelOrder::Item&, size_t pixel) {
+      return Rng(settings.seed, rng_stream(RngUse::pixel, static_cast<uint64_t>(pass.number)),
+                 pixel * settings.samples_per_pixel + sample);
+    };
+    rays.follow(pass.radiance, pixel_of, rng_of, [&](size_t i, const EyeRay& ray) {
+      if (!is_shown(order.items()[i].pixel)) return;
+      means[i].add(ray.radiance, counters);
+      if (!settings.layers.empty()) pass.views.add(ray.work.pixel, view_along(pass.scene, ray.ray));
+    });
   }
-  for (size_t i = 0; i < block.pixels().size(); ++i)
-    pass.set(block.pixels()[i].x, block.pixels()[i].y, means[i].mean());
+  for (size_t i = 0; i < means.size(); ++i) {
+    const glm::ivec2 pixel = order.items()[i].pixel;
+    if (is_shown(pixel)) pass.result.set(pixel.x, pixel.y, means[i].mean());
+  }
 }
 
 }  // namespace
 
 uint64_t tile_count(const Camera& camera) {
-  const PixelRect tiles = tiles_of(camera);
-  return static_cast<uint64_t>(tiles.width()) * static_cast<uint64_t>(tiles.height());
+  const PixelRect pixels = pixels_of_tiles(camera);
+  const auto tiles = [](int length) { return static_cast<uint64_t>((length + kTile - 1) / kTile); };
+  return tiles(pixels.width()) * tiles(pixels.height());
 }
 
 Pass render_image(const Scene& scene, const PassSettings& settings, int pass, const RadianceOfRays& radiance,
-                  const PassProgress& progress) {
+                  const PassProgress& progress, int square) {
   const Stopwatch rendering;
   const Camera& camera = scene.camera;
   Pass result(camera.width, camera.height);
   result.statistics.passes = 1;
   ViewSums views(settings.layers, camera.width, camera.height);
-  const RadianceOfRays estimated = settings.layers.empty() ? radiance : [&](std::span<EyeRay> rays) {
-    for (const EyeRay& each : rays) views.add(each.work.pixel, view_along(scene, each.ray));
-    radiance(rays);
-  };
-  const PixelRect tiled = tiles_of(camera);
-  const uint64_t tiles = tile_count(camera);
-  std::vector<EyeCounters> counters(tiles);
-  Progress bar("image", tiles, progress.stages);
-  parallel_for_chunks(tiles, 1, [&](size_t tile, size_t, size_t) {
-    const auto across = static_cast<size_t>(tiled.width());
-    const int x0 = (tiled.x0 + static_cast<int>(tile % across)) * kTile;
-    const int y0 = (tiled.y0 + static_cast<int>(tile / across)) * kTile;
-    TileWork work{counters[tile], {}};
-    const glm::ivec2 end = glm::min(glm::ivec2(x0, y0) + kTile, glm::ivec2(camera.width, camera.height));
-    for (int y = y0; y < end.y; y += kBlockEdge)
-      for (int x = x0; x < end.x; x += kBlockEdge) {
-        const PixelBlock block({x, y}, glm::min(glm::ivec2(x, y) + kBlockEdge, end));
-        render_block(scene, settings, estimated, block, work, pass, result);
-      }
+  const Rng of_squares(settings.seed, rng_stream(RngUse::square, static_cast<uint64_t>(pass)), 0);
+  const ImagePass image{
+      scene, settings, pass, radiance, PixelSquares::draw(square, of_squares), pixels_of_tiles(camera), views, result};
+  const std::vector<glm::ivec2> tiles = image.squares.tiles_in(image.shown);
+  const uint64_t foreseen = tile_count(camera);  // squares that begin before the picture may make more
+  std::vector<EyeCounters> counters(tiles.size());
+  Progress bar("image", foreseen, progress.stages);
+  parallel_for_chunks(tiles.size(), 1, [&](size_t tile, size_t, size_t) {
+    render_tile(image, tiles[tile], counters[tile]);
+    if (tile >= foreseen) return;
     bar.advance();
     if (progress.tiles) progress.tiles->advance();
   });

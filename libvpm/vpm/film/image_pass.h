@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <span>
 
 #include "vpm/base/counters.h"
 #include "vpm/estimate/eye_work.h"
+#include "vpm/film/ordered_rays.h"
 #include "vpm/film/pass.h"
 #include "vpm/film/pass_settings.h"
 #include "vpm/scene/scene.h"
@@ -15,10 +15,6 @@ namespace vpm {
 
 /// The units of work of a pass's image.
 uint64_t tile_count(const Camera& camera);
-
-/// Estimates the radiance along each of up to kEyeRays camera rays that lie side by side. Called from many threads, for
-/// each pixel from one.
-using RadianceOfRays = std::function<void(std::span<EyeRay> rays)>;
 
 /// Makes one of a function of one ray: of(const Ray&, EyeWork&) returns a KernelEstimate.
 template <class OfRay>
@@ -59,8 +55,9 @@ KernelEstimate mean_of_samples(int samples, EyeCounters& counters, Sample&& samp
 
 /// Renders the pixels of pass number `pass`: the mean of the settings' samples per pixel, a SampleMean, and where the
 /// settings ask for layers, the means of what these samples' rays see. Where the camera has a crop, the pixels are
-/// those of all tiles that it meets: it has the same bits as that part of the whole.
+/// those of all tiles that it meets: it has the same bits as that part of the whole. One pixel of each square of
+/// `square` x `square` may gather for all, see SharedGather; 1: none does.
 Pass render_image(const Scene& scene, const PassSettings& settings, int pass, const RadianceOfRays& radiance,
-                  const PassProgress& progress = {});
+                  const PassProgress& progress = {}, int square = 1);
 
 }  // namespace vpm

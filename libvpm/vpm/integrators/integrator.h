@@ -21,6 +21,7 @@ struct RaysOfPass {
   RadianceOfRays radiance;  // keeps what it reads
   Image light_tracing;      // what light sub-paths add to each pixel; empty where the integrator has none
   RenderStatistics statistics{};
+  int square = 1;  // of pixels that share what one gathers: render_image()
 };
 
 /// A way to render: an integrator and the components that it uses.

@@ -61,7 +61,7 @@ struct SingleScatteringSettings {
 /// Light on surfaces that has not scattered yet.
 struct DirectSettings {
   DirectLight type = DirectLight::shadow_rays;
-  int samples = 1;  // shadow rays to each light that has an area or a solid angle, >= 1
+  int samples = 2;  // shadow rays to each light that has an area or a solid angle, >= 1
 };
 
 /// Light on surfaces that surfaces have scattered before.
@@ -105,6 +105,7 @@ struct RenderSettings : PassSettings {
   SingleScatteringSettings single_scattering;
   DirectSettings direct;
   IndirectSettings indirect;
+  int square = 2;  // the edge, pixels, of squares in which one ray gathers for all; 1: each gathers for itself
   float max_optical_step = 0.5f;  // of a marching step, in optical thickness, > 0
 
   bool gathers_finally() const { return indirect.type == IndirectLight::final_gather; }

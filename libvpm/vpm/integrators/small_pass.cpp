@@ -19,40 +19,41 @@ int begin_of(int part, int first, int pixels) {
   return first + std::clamp((2 * part + 1) * pixels / (2 * kAlong) - kEdge / 2, 0, std::max(0, pixels - kEdge));
 }
 
-/// Pixel number `i` of a block: squares of kBlock pixels one after another.
-glm::ivec2 pixel_of(size_t block, size_t i, const PixelRect& rendered) {
-  const int square = static_cast<int>(i / kBlock), within = static_cast<int>(i % kBlock);
-  const int x = begin_of(static_cast<int>(block) % kAlong, rendered.x0, rendered.width()) + square % 2 * 4 + within % 4;
-  const int y =
-      begin_of(static_cast<int>(block) / kAlong, rendered.y0, rendered.height()) + square / 2 * 4 + within / 4;
-  return {std::min(x, rendered.x1 - 1), std::min(y, rendered.y1 - 1)};
+/// The pixel of the picture at a place in a block.
+glm::ivec2 pixel_at(size_t block, const glm::ivec2& place, const PixelRect& rendered) {
+  const glm::ivec2 begin{begin_of(static_cast<int>(block) % kAlong, rendered.x0, rendered.width()),
+                         begin_of(static_cast<int>(block) / kAlong, rendered.y0, rendered.height())};
+  return glm::min(begin + place, glm::ivec2(rendered.x1, rendered.y1) - 1);
 }
 
 /// What the rays of a block find, sample by sample of its pixels.
 void follow_block(const Scene& scene, const RenderSettings& settings, const RaysOfPass& ready, uint64_t stream,
                   size_t block, std::span<KernelEstimate> found, EyeCounters& counters) {
-  EyeScratch scratch;
+  PixelSquares squares = PixelSquares::draw(ready.square, Rng(settings.seed, rng_stream(RngUse::square, 0), block));
+  squares.first = {0, 0};
+  const PixelOrder order({0, 0}, {kEdge, kEdge}, squares);
+  OrderedRays rays(scene.camera, order, squares.edge, counters);
+  const auto place_of = [](const PixelOrder::Item& item) {
+    return static_cast<size_t>(item.pixel.y * kEdge + item.pixel.x);
+  };
   std::array<SampleMean, kBlockRays> means;
-  std::vector<Rng> rngs;
-  std::vector<EyeRay> rays;
+  std::array<size_t, kBlockRays> pixels{};
   for (int sample = 0; sample < settings.samples_per_pixel; ++sample) {
-    rays.clear();
-    rngs.clear();
-    rngs.reserve(kBlockRays);
-    for (size_t i = 0; i < kBlockRays; ++i) {
-      const glm::ivec2 pixel = pixel_of(block, i, scene.camera.rendered());
-      const uint64_t number = (block * kBlockRays + i) * settings.samples_per_pixel + sample;
-      Rng& rng = rngs.emplace_back(settings.seed, stream, number);
-      const Vec2 film = Vec2(pixel) + 0.5f + sample_filter(scene.camera.filter, rng.uniform2());
-      rays.push_back({scene.camera.ray(film),
-                      {rng, counters, scratch, static_cast<size_t>(pixel.y) * scene.camera.width + pixel.x}});
-    }
-    ready.radiance(rays);
-    for (size_t i = 0; i < kBlockRays; ++i) means[i].add(rays[i].radiance, counters);
+    const auto pixel_of = [&](const PixelOrder::Item& item) {
+      return pixel_at(block, item.pixel, scene.camera.rendered());
+    };
+    const auto rng_of = [&](const PixelOrder::Item& item, size_t) {
+      const uint64_t number = (block * kBlockRays + place_of(item)) * settings.samples_per_pixel + sample;
+      return Rng(settings.seed, stream, number);
+    };
+    rays.follow(ready.radiance, pixel_of, rng_of, [&](size_t i, const EyeRay& ray) {
+      means[place_of(order.items()[i])].add(ray.radiance, counters);
+      pixels[place_of(order.items()[i])] = ray.work.pixel;
+    });
   }
   for (size_t i = 0; i < kBlockRays; ++i) {
     found[i] = means[i].mean();
-    if (!ready.light_tracing.pixels.empty()) found[i].value += ready.light_tracing.pixels[rays[i].work.pixel];
+    if (!ready.light_tracing.pixels.empty()) found[i].value += ready.light_tracing.pixels[pixels[i]];
   }
 }
 

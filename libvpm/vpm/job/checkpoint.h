@@ -14,7 +14,7 @@ namespace vpm {
 
 /// The number of what is written, to be counted up with each change of the fields or of what they mean. A file of
 /// another number is refused. (1: files without a number.)
-inline constexpr int kCheckpointFormat = 9;
+inline constexpr int kCheckpointFormat = 10;
 
 /// About how many bytes a checkpoint of the job takes.
 uint64_t checkpoint_bytes(const RenderJob& job);

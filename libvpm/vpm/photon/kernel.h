@@ -71,6 +71,19 @@ inline const KernelInfo& kernel_info(KernelKind kind) { return kKernels[static_c
 /// The power of the radius that the error of a kernel in a smooth density goes with.
 inline int kernel_order(KernelKind kind) { return kind == KernelKind::order_4 ? 4 : 2; }
 
+/// The mean of the square of a coordinate under a kernel of radius 1 in `dimension` dimensions. 0 for order 4. Of lines
+/// across a ray, which have one dimension in two, it is half of that along each axis.
+constexpr float kernel_variance(KernelKind kind, int dimension) {
+  const auto d = static_cast<float>(dimension);
+  if (kind == KernelKind::order_4) return 0.0f;
+  if (kind == KernelKind::cone) return (d + 1.0f) / ((d + 2.0f) * (d + 3.0f));
+  const auto power = static_cast<float>(kind == KernelKind::constant       ? 0
+                                        : kind == KernelKind::epanechnikov ? 1
+                                        : kind == KernelKind::biweight     ? 2
+                                                                           : 3);  // of 1 - q
+  return 1.0f / (2.0f * power + d + 2.0f);
+}
+
 /// `a` where the condition holds, else `b`; floats.h has that of many numbers.
 inline float select(bool condition, float a, float b) { return condition ? a : b; }
 

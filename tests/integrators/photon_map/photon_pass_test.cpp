@@ -290,6 +290,7 @@ TEST(PhotonPass, ShadowRaysToEvenPlacesHaveLessNoise) {
   Scene scene = lamp_and_floor(nullptr);
   scene.camera.filter.radius = 0.01f;  // what lies within a pixel does not vary
   RenderSettings settings = settings_of(1, 0.1f);
+  settings.direct.samples = 1;
   const Moments one = pass_means(scene, settings, 400);
   settings.direct.samples = 8;
   const Moments eight = pass_means(scene, settings, 400);
@@ -308,6 +309,7 @@ TEST(PhotonPass, SeveralShadowRaysBringTheSameLight) {
   scene.lights.push_back(ConstantEnvironment{Rgb(0.5f)});
   finish_again(scene);
   RenderSettings settings = settings_of(1, 0.1f);
+  settings.direct.samples = 1;
   const auto shadow_rays = [&] { return render_photon_pass(scene, settings, 0).statistics.eye.shadow_rays; };
   const uint64_t rays = shadow_rays();  // one to each of six lights
   const Moments one = pass_means(scene, settings, 300);

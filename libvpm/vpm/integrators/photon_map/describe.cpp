@@ -125,6 +125,10 @@ constexpr const char* kRadiiMeaning =
 void describe_photon_maps(RenderSettings& s, Description& d) {
   const Members<S> of(s, d);
   of.add("radii", &S::radii, kRadiiMeaning);
+  of.add(
+      "square", &S::square, Integers{1, 4},
+      "the edge, in pixels, of squares in which one ray gathers photons for all that see the same, where gather radii "
+      "are wide beside it, see below; 1: each ray gathers for itself");
   of.add("max_optical_step", &S::max_optical_step, Numbers{{1e-4, kNoLimit, false, true}},
          "longest step of the eye rays' march, in optical thickness; photons of homogeneous media are summed in steps "
          "of a radius where `boundary` is `\"ends\"`; with `\"beams-points\"` that of the densest place counts "

@@ -62,10 +62,20 @@ struct SurfaceView {
   MediumId medium = kVacuum;
 };
 
+/// Estimates the radiance that leaves a surface in the direction -`travel`, W/(m^2 sr), without its own emission.
 class SurfaceEstimator : public Estimator {
  public:
-  /// Estimates the radiance that leaves the surface in the direction -`travel`, W/(m^2 sr), without its own emission.
-  virtual KernelEstimate sent(const SurfaceView& view, EyeWork& work) const = 0;
+  /// The part that rays from the surface find.
+  virtual KernelEstimate found_by_rays(const SurfaceView&, EyeWork&) const { return {}; }
+  /// The part that photons around the place bring, which neighbouring rays may share.
+  virtual KernelEstimate found_by_photons(const SurfaceView&, EyeWork&) const { return {}; }
+  /// All of it.
+  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const {
+    const KernelEstimate by_rays = found_by_rays(view, work);
+    return found_by_photons(view, work) + by_rays;
+  }
+  /// The variance of the kernels of found_by_photons() along an axis, m^2; 0 where they have no one variance.
+  virtual float kernel_variance() const { return 0.0f; }
   /// The number of photons found in the disc of each pixel, over its samples; empty where pixels have no discs of their
   /// own.
   virtual std::vector<uint64_t> take_found() { return {}; }
@@ -94,6 +104,9 @@ class VolumeEstimator : public Estimator {
   /// Estimates that light, scattered into the segment, as it is seen at the segment's start and times its throughput,
   /// W/(m^2 sr).
   virtual KernelEstimate along(const EyeSegment& segment, EyeWork& work) const = 0;
+  /// The variance of its kernels along an axis across the ray, m^2. 0 where they have no one variance, or where rays
+  /// find the light: neighbouring rays share none of it then.
+  virtual float kernel_variance(MediumId) const { return 0.0f; }
   /// Adds along() to the light of each of up to kEyeRays segments, in one homogeneous medium, of rays that come
   /// straight from `apex`. An override may treat them jointly, if the result is the same up to rounding.
   virtual void along_bundle([[maybe_unused]] const Vec3& apex, SegmentBundle bundle) const {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "vpm/integrators/photon_map/lamp_images.h"
 #include "vpm/integrators/photon_map/plan.h"
 
 namespace vpm {
@@ -12,6 +13,7 @@ struct EyeContext {
   const Scene& scene;
   const Estimators& estimators;
   int max_events = 100'000;  // of a path, counted from the camera on each branch; branches that are cut are counted
+  const LampImages* lamp_images = nullptr;  // the pixels whose images of lamps have rays of their own; null: none
 };
 
 /// Follows a camera ray through boundaries and specular surfaces. Each segment adds what its medium scatters towards
@@ -22,5 +24,9 @@ KernelEstimate eye_radiance(const EyeContext& context, const Ray& camera_ray, Ey
 /// The same for up to kEyeRays rays that lie side by side. As long as they go straight on from the camera they are
 /// followed together, so that estimators can gather for all of them at once.
 void eye_radiance(const EyeContext& context, std::span<EyeRay> rays);
+
+/// The light of lamps that the pixel of `work` shows by way of mirrors and glass, W/(m^2 sr): the mean over
+/// LampImages::kRays rays, which lie evenly in the pixel.
+Rgb lamps_by_images(const EyeContext& context, EyeWork& work);
 
 }  // namespace vpm

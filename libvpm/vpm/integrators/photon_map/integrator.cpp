@@ -14,8 +14,9 @@ namespace vpm {
 namespace {
 
 PassMaker passes_of_photon_maps(const Scene& scene, const RenderSettings& settings) {
-  const auto make = [&scene, &settings](int pass, const RenderResult& so_far, const PassProgress& progress) {
-    return render_photon_pass_after(so_far.discs, scene, settings, {pass, progress});
+  const auto lamps = std::make_shared<const LampImages>(scene, settings.seed, settings.max_events);
+  const auto make = [&scene, &settings, lamps](int pass, const RenderResult& so_far, const PassProgress& progress) {
+    return render_photon_pass_after(so_far.discs, scene, settings, {pass, progress, {}, lamps.get()});
   };
   return {make, tile_count(scene.camera), block_count(settings), settings.radii == RadiusSchedule::per_pixel};
 }
@@ -25,7 +26,9 @@ RaysOfPass rays_of_photon_maps(const Scene& scene, const RenderSettings& setting
   RaysOfPass rays{[estimators, &scene, events = settings.max_events](std::span<EyeRay> of) {
                     eye_radiance({scene, *estimators, events}, of);
                   },
-                  {}};
+                  {},
+                  {},
+                  settings.square};
   prepare_pass(scene, settings, *estimators, {.pass = pass}, rays.statistics);
   return rays;
 }

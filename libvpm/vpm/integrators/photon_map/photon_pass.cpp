@@ -59,9 +59,9 @@ Pass render_block(const Scene& scene, const RenderSettings& settings, const Pass
                   const Estimators& estimators) {
   RenderStatistics statistics;
   prepare_pass(scene, settings, estimators, run, statistics);
-  const EyeContext context{scene, estimators, settings.max_events};
+  const EyeContext context{scene, estimators, settings.max_events, run.lamp_images};
   const RadianceOfRays radiance = [&](std::span<EyeRay> rays) { eye_radiance(context, rays); };
-  Pass result = render_image(scene, settings, run.pass, radiance, run.progress);
+  Pass result = render_image(scene, settings, run.pass, radiance, run.progress, settings.square);
   if (estimators.surface) result.found = estimators.surface->take_found();
   result.statistics.merge(statistics);
   return result;
@@ -125,7 +125,7 @@ Pass render_photon_pass_after(const PixelDiscs& discs, const Scene& scene, const
   std::optional<MediaBounds> around;
   if (tracings_of_pass(scene, settings) > 1) around = bounds_of_blocks(scene, settings, run, looking);
   Pass pass = mean_of_blocks(settings, [&](const PhotonBlock& block) {
-    return render_block(scene, settings, {run.pass, run.progress, block},
+    return render_block(scene, settings, {run.pass, run.progress, block, run.lamp_images},
                         plan_estimators(scene, settings, run.pass, discs, around ? &*around : nullptr));
   });
   looking.merge(pass.statistics);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "vpm/film/image_pass.h"
+#include "vpm/integrators/photon_map/lamp_images.h"
 #include "vpm/integrators/photon_map/photon_blocks.h"
 #include "vpm/integrators/photon_map/plan.h"
 
@@ -14,7 +15,8 @@ namespace vpm {
 struct PassRun {
   int pass = 0;  // from 0
   PassProgress progress = {};
-  std::optional<PhotonBlock> block = {};  // the photons of the pass that are traced; nothing: all of them
+  std::optional<PhotonBlock> block = {};    // the photons of the pass that are traced; nothing: all of them
+  const LampImages* lamp_images = nullptr;  // see EyeContext
 };
 
 /// Traces the photons of the pass into the recorders of the estimators, if there are any. They start with random

@@ -86,7 +86,7 @@ void FinalGather::build(uint64_t emitted, RenderStatistics& statistics) {
   }
 }
 
-KernelEstimate FinalGather::sent(const SurfaceView& view, EyeWork& work) const {
+KernelEstimate FinalGather::found_by_rays(const SurfaceView& view, EyeWork& work) const {
   const KernelEstimate blurred = gathered(view, work);
   return blurred + not_gathered(view, work);
 }

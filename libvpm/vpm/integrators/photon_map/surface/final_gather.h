@@ -39,7 +39,7 @@ class FinalGather final : public SurfaceEstimator {
   Recorders recorders() override;
   void trace_more(const TracedPass& pass, RenderStatistics& statistics) override;
   void build(uint64_t emitted, RenderStatistics& statistics) override;
-  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override;
+  KernelEstimate found_by_rays(const SurfaceView& view, EyeWork& work) const override;
 
  private:
   KernelEstimate not_gathered(const SurfaceView& view, EyeWork& work) const;

@@ -27,7 +27,7 @@ void PixelRadii::build(uint64_t, RenderStatistics& statistics) {
   statistics.last_surface_radius = *std::max_element(radii_.begin(), radii_.end());
 }
 
-KernelEstimate PixelRadii::sent(const SurfaceView& view, EyeWork& work) const {
+KernelEstimate PixelRadii::found_by_rays(const SurfaceView& view, EyeWork& work) const {
   GatherCounters& counters = work.counters.gather;
   const Rgb direct = direct_ ? direct_->sent(view, work) : Rgb(0.0f);
   GatherSettings own = map_.map().settings;

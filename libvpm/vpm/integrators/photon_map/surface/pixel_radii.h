@@ -25,7 +25,7 @@ class PixelRadii final : public SurfaceEstimator {
   std::vector<MapInfo> maps() const override { return {map_.info()}; }
   Recorders recorders() override { return {map_.recorder()}; }
   void build(uint64_t emitted, RenderStatistics& statistics) override;
-  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override;
+  KernelEstimate found_by_rays(const SurfaceView& view, EyeWork& work) const override;
   std::vector<uint64_t> take_found() override { return std::move(found_); }
 
  private:

@@ -36,6 +36,8 @@ class SurfaceMap {
   PhotonRecorder* recorder() { return &hits_; }
   void build(RenderStatistics& statistics);
   KernelEstimate gather(const SurfaceView& view, EyeWork& work) const { return gather_from(map_, scene_, view, work); }
+  /// Of the kernels of gather(): SurfaceEstimator::kernel_variance().
+  float kernel_variance() const { return variance_of(map_.settings, 2); }
   const PhotonMap& map() const { return map_; }
 
  private:
@@ -55,7 +57,10 @@ class Visualise final : public SurfaceEstimator {
   std::vector<MapInfo> maps() const override { return {map_.info()}; }
   Recorders recorders() override { return {map_.recorder()}; }
   void build(uint64_t, RenderStatistics& statistics) override { map_.build(statistics); }
-  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override { return map_.gather(view, work); }
+  KernelEstimate found_by_photons(const SurfaceView& view, EyeWork& work) const override {
+    return map_.gather(view, work);
+  }
+  float kernel_variance() const override { return map_.kernel_variance(); }
 
  private:
   SurfaceMap map_;
@@ -70,10 +75,13 @@ class Progressive final : public SurfaceEstimator {
   std::vector<MapInfo> maps() const override { return {map_.info()}; }
   Recorders recorders() override { return {map_.recorder()}; }
   void build(uint64_t, RenderStatistics& statistics) override { map_.build(statistics); }
-  KernelEstimate sent(const SurfaceView& view, EyeWork& work) const override {
-    const Rgb direct = direct_.sent(view, work);
-    return map_.gather(view, work) + direct;
+  KernelEstimate found_by_rays(const SurfaceView& view, EyeWork& work) const override {
+    return direct_.sent(view, work);
   }
+  KernelEstimate found_by_photons(const SurfaceView& view, EyeWork& work) const override {
+    return map_.gather(view, work);
+  }
+  float kernel_variance() const override { return map_.kernel_variance(); }
 
  private:
   SurfaceMap map_;

@@ -31,6 +31,7 @@ class BeamRadiance final : public VolumeEstimator {
   void build(uint64_t emitted, RenderStatistics& statistics) override;
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
   void along_bundle(const Vec3& apex, SegmentBundle bundle) const override;
+  float kernel_variance(MediumId medium) const override { return variance_of(maps_[medium].settings, 2); }
 
  private:
   VolumeMaps<BeamMap> maps_;

@@ -24,6 +24,7 @@ class BeamsAroundPoints final : public VolumeEstimator {
   Recorders recorders() override { return {beams_.recorder()}; }
   void build(uint64_t emitted, RenderStatistics& statistics) override;
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
+  float kernel_variance(MediumId medium) const override { return variance_of(beams_[medium].settings, 2); }
 
  private:
   struct Map {

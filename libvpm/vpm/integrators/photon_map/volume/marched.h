@@ -23,6 +23,10 @@ class MarchedLight final : public VolumeEstimator {
   Recorders recorders() override;
   void build(uint64_t emitted, RenderStatistics& statistics) override;
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
+  /// Of photons alone: rays towards lights are shared by nobody.
+  float kernel_variance(MediumId medium) const override {
+    return photons_ && !lights_ ? variance_of((*photons_)[medium].settings, 3) : 0.0f;
+  }
 
  private:
   class March;

@@ -26,6 +26,7 @@ class PhotonBeams final : public VolumeEstimator {
   void build_beside(float kept_planes, uint64_t emitted, RenderStatistics& statistics);
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
   void along_bundle(const Vec3& apex, SegmentBundle bundle) const override;
+  float kernel_variance(MediumId medium) const override { return variance_of(beams_[medium].settings, 1); }
   const BeamBalance& balance(MediumId medium) const { return beams_[medium].balance; }
 
  private:

@@ -20,6 +20,7 @@ class PointsAtPhoton final : public VolumeEstimator {
     build_around_points(maps_, emitted, statistics);
   }
   KernelEstimate along(const EyeSegment& segment, EyeWork& work) const override;
+  float kernel_variance(MediumId medium) const override { return variance_of(maps_[medium].settings, 3); }
 
  private:
   VolumeMaps<PhotonMap> maps_;
