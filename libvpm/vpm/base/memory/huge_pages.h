@@ -9,7 +9,7 @@ namespace vpm {
 /// Memory of so many bytes, aligned for `alignment`, a power of two; throws std::bad_alloc where there is none. From
 /// 4 MiB on it lies on pages of 2 MiB, where the system gives such to who asks for them. A processor remembers where
 /// some thousand pages are: of the usual 4 KiB these are few MiB, and each look-up in a larger table waits for the
-/// place of its page before it waits for its value.
+/// place of its page before it waits for its value. What is freed of such goes back to the system at once.
 void* allocate_table(size_t bytes, size_t alignment);
 /// Gives it back, by the same numbers.
 void free_table(void* table, size_t bytes, size_t alignment);

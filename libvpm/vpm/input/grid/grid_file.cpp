@@ -282,7 +282,7 @@ float outside_density(const DensitySource& source, float background, uint64_t& c
   return background;
 }
 
-LoadedGrid make_density(const DensitySource& source, const FloatTree& tree) {
+LoadedGrid make_density(const DensitySource& source, FloatTree& tree) {
   LoadedGrid loaded;
   const CoordBBox box = active_box(source, tree);
   const float background = outside_density(source, tree.background(), loaded.clamped_values);

@@ -1,6 +1,7 @@
 // The values of bricks, leaf by leaf, and where a sparse grid has any.
 #include "vpm/input/grid/vdb_bricks.h"
 
+#include <malloc.h>
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -142,12 +143,38 @@ std::vector<IndexBox> occupied_boxes(const FloatTree& tree, const CoordBBox& box
   return occupied;
 }
 
+/// Frees the leaves of a tree, from below, and the pages that they took.
+class LeafRemover {
+ public:
+  explicit LeafRemover(FloatTree& tree) : tree_(tree) {
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) corners_.push_back(leaf->origin());
+    std::stable_sort(corners_.begin(), corners_.end(), [](const Coord& a, const Coord& b) { return a.z() > b.z(); });
+  }
+
+  void operator()(int z) {
+    constexpr int kLeafEdge = 8;    // voxels
+    constexpr size_t kTrim = 1024;  // leaves, of 2 MB
+    const size_t before = corners_.size();
+    for (; !corners_.empty() && corners_.back().z() + kLeafEdge <= z; corners_.pop_back())
+      delete tree_.stealNode<FloatTree::LeafNodeType>(corners_.back(), 0.0f, false);
+    freed_ += before - corners_.size();
+    if (freed_ < kTrim) return;
+    malloc_trim(0);  // leaves are small: the C library keeps their memory
+    freed_ = 0;
+  }
+
+ private:
+  FloatTree& tree_;
+  std::vector<Coord> corners_;  // of the leaves that are left, the lowest last
+  size_t freed_ = 0;            // since memory went back to the system
+};
+
 }  // namespace
 
-std::shared_ptr<const DensityGrid> density_of(const FloatTree& tree, const GridFrame& frame) {
+std::shared_ptr<const DensityGrid> density_of(FloatTree& tree, const GridFrame& frame) {
   const CoordBBox box(to_coord(frame.lo), to_coord(frame.hi));
-  return std::make_shared<const DensityGrid>(frame, BrickFiller(tree, box, frame.background),
-                                             occupied_boxes(tree, box));
+  return std::make_shared<const DensityGrid>(frame, BrickFiller(tree, box, frame.background), occupied_boxes(tree, box),
+                                             LeafRemover(tree));
 }
 
 }  // namespace vpm

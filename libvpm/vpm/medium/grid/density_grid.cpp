@@ -66,25 +66,38 @@ bool all_equal(const float* values) {
 /// file of a few kB could fill all memory with them.
 class DistinctBricks {
  public:
-  explicit DistinctBricks(LargeTable<float>& values) : values_(values) {}
-
   /// The number of a brick of these values, in units of kBrickValues.
   uint32_t add(const float* values) {
     constexpr size_t kBytes = DensityGrid::kBrickValues * sizeof(float);
     const std::hash<std::string_view> hash;
-    const auto next = static_cast<uint32_t>(values_.size() / DensityGrid::kBrickValues);
-    const auto [known, added] = numbers_.try_emplace(hash({reinterpret_cast<const char*>(values), kBytes}), next);
-    if (!added) {
-      const float* other = values_.data() + static_cast<size_t>(known->second) * DensityGrid::kBrickValues;
-      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
-      if (std::memcmp(values, other, kBytes) == 0) return known->second;
+    const auto [known, added] = numbers_.try_emplace(hash({reinterpret_cast<const char*>(values), kBytes}), size_);
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+    if (!added && std::memcmp(values, of(known->second), kBytes) == 0) return known->second;
+    if (size_ % kOfPart == 0) parts_.emplace_back().reserve(kOfPart * DensityGrid::kBrickValues);
+    parts_.back().insert(parts_.back().end(), values, values + DensityGrid::kBrickValues);
+    return size_++;
+  }
+
+  /// All values, in one table. Parts are freed as they are copied: there are never two copies of all.
+  LargeTable<float> take() {
+    LargeTable<float> all;
+    all.reserve(size_t{size_} * DensityGrid::kBrickValues);
+    for (LargeTable<float>& part : parts_) {
+      all.insert(all.end(), part.begin(), part.end());
+      part = LargeTable<float>();  // {} would keep its memory
     }
-    values_.insert(values_.end(), values, values + DensityGrid::kBrickValues);
-    return next;
+    return all;
   }
 
  private:
-  LargeTable<float>& values_;
+  static constexpr uint32_t kOfPart = 2048;  // bricks, of 6 MB
+
+  const float* of(uint32_t number) const {
+    return parts_[number / kOfPart].data() + static_cast<size_t>(number % kOfPart) * DensityGrid::kBrickValues;
+  }
+
+  std::vector<LargeTable<float>> parts_;
+  uint32_t size_ = 0;                             // bricks
   std::unordered_map<size_t, uint32_t> numbers_;  // by hash; of two bricks with one hash, the first
 };
 
@@ -118,7 +131,8 @@ DensityGrid::DensityGrid(const GridFrame& frame) : frame_(frame), world_to_index
       static_cast<float>(std::min(glm::length(axes[0]), std::min(glm::length(axes[1]), glm::length(axes[2]))));
 }
 
-DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied)
+DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied,
+                         const Passed& passed)
     : DensityGrid(frame) {
   if (glm::any(glm::greaterThanEqual(lattice_size_, Vec3d(std::numeric_limits<int>::max()))))
     throw InputError("its voxels lie 2^31 or more apart");
@@ -129,7 +143,7 @@ DensityGrid::DensityGrid(const GridFrame& frame, const FillBrick& fill, const st
     throw InputError(
         fmt::format("{:.3g} bricks of 8^3 voxels would take {:.3g} GiB for their table alone; the limit is 0.25 GiB",
                     count, count * sizeof(Brick) / double(1u << 30)));
-  const double sum = fill_bricks(fill);
+  const double sum = fill_bricks(fill, passed);
   find_walked();
   const Vec3d support = support_hi() - support_lo();
   const double cells = count * (kCells * kCells * kCells), volume = support.x * support.y * support.z;
@@ -161,12 +175,12 @@ void DensityGrid::pack(TablePacker& packer) const {
   packer.add_one(mean_of_stored_);
 }
 
-double DensityGrid::fill_bricks(const FillBrick& fill) {
-  constexpr size_t kWave = 4096, kChunk = 64;  // bricks: of 12 MB, and what one thread takes at once
+double DensityGrid::fill_bricks(const FillBrick& fill, const Passed& passed) {
+  constexpr size_t kWave = 1024, kChunk = 64;  // bricks: of 3 MB, and what one thread takes at once
   const auto tables = std::make_shared<Tables>();
   LargeTable<Brick>& bricks = tables->bricks;
   bricks.resize(boxes_.bricks());
-  DistinctBricks distinct(tables->values);
+  DistinctBricks distinct;
   const auto add_brick = [&](const Brick& brick, const float* of_brick) {
     const uint32_t first = distinct.add(of_brick);
     if (first == tables->blocks.size()) tables->blocks.emplace_back(of_brick, DensityBounds{brick.min, brick.max});
@@ -194,6 +208,7 @@ double DensityGrid::fill_bricks(const FillBrick& fill) {
       }
     });
     cancellation_point();
+    if (passed && boxes_.whole() && wave + count < bricks.size()) passed(origin_of(wave + count).z);
     for (size_t i = 0; i < count; ++i) {
       Brick& brick = bricks[wave + i];
       if (!brick.uniform())
@@ -203,7 +218,8 @@ double DensityGrid::fill_bricks(const FillBrick& fill) {
       sum += sums[i];
     }
   }
-  tables->values.shrink_to_fit();
+  values = std::vector<float>();
+  tables->values = distinct.take();
   bricks_ = bricks;
   values_ = tables->values;
   tables->blocks.shrink_to_fit();

@@ -46,12 +46,15 @@ class DensityGrid {
   /// Writes the values of the voxels origin + (x, y, z), 0 <= x, y, z <= 8, to values[(z * 9 + y) * 9 + x]. All must be
   /// finite and >= 0. It is called from all threads, each of which has copies of its own.
   using FillBrick = std::function<Filled(const Vec3i& origin, float* values)>;
+  /// Told in between, by one thread, that no voxel below `z` is asked for any more.
+  using Passed = std::function<void(int z)>;
 
   /// Builds, on all threads, the bricks that cover the frame's index box and the reach of its interpolation. A brick
   /// with equal values stores one value only, and equal bricks store their values once. Where the voxels in the boxes
   /// of `occupied` take far fewer bricks, or all are more than one table may hold, these alone are stored: all others
   /// have the background's density. Throws InputError if the tables of bricks alone would take over 256 MiB.
-  DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied = {});
+  DensityGrid(const GridFrame& frame, const FillBrick& fill, const std::vector<IndexBox>& occupied = {},
+              const Passed& passed = {});
   /// The same grid as the one that pack() has packed, which must come next. It reads its tables where they lie, in that
   /// memory, which it keeps.
   DensityGrid(TableUnpacker& packed, std::shared_ptr<const void> memory);
@@ -153,7 +156,7 @@ class DensityGrid {
     Vec3 fraction;        // position within the cell, along each axis
   };
   /// Makes all bricks and returns the sum of the voxels' densities. The result is the same on any number of threads.
-  double fill_bricks(const FillBrick& fill);
+  double fill_bricks(const FillBrick& fill, const Passed& passed);
   /// The brick that has these values; `first` is not set yet.
   static Brick brick_of(const float* values);
   /// Sets walked_lo_ and walked_hi_.
