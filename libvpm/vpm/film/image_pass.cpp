@@ -14,15 +14,6 @@ namespace {
 
 constexpr int kTile = PixelSquares::kTile;
 
-/// The pixels that are rendered: those of the tiles of kTile pixels, from the corner of the picture, that meet what is
-/// asked for.
-PixelRect pixels_of_tiles(const Camera& camera) {
-  const PixelRect asked = camera.rendered();
-  const auto end = [](int pixel, int most) { return std::min((pixel + kTile - 1) / kTile * kTile, most); };
-  return {asked.x0 / kTile * kTile, asked.y0 / kTile * kTile, end(asked.x1, camera.width),
-          end(asked.y1, camera.height)};
-}
-
 /// What all tiles of a pass have.
 struct ImagePass {
   const Scene& scene;
@@ -65,8 +56,15 @@ void render_tile(const ImagePass& pass, const glm::ivec2& corner, EyeCounters& c
 
 }  // namespace
 
+PixelRect rendered_in_tiles(const Camera& camera) {
+  const PixelRect asked = camera.rendered();
+  const auto end = [](int pixel, int most) { return std::min((pixel + kTile - 1) / kTile * kTile, most); };
+  return {asked.x0 / kTile * kTile, asked.y0 / kTile * kTile, end(asked.x1, camera.width),
+          end(asked.y1, camera.height)};
+}
+
 uint64_t tile_count(const Camera& camera) {
-  const PixelRect pixels = pixels_of_tiles(camera);
+  const PixelRect pixels = rendered_in_tiles(camera);
   const auto tiles = [](int length) { return static_cast<uint64_t>((length + kTile - 1) / kTile); };
   return tiles(pixels.width()) * tiles(pixels.height());
 }
@@ -80,7 +78,8 @@ Pass render_image(const Scene& scene, const PassSettings& settings, int pass, co
   ViewSums views(settings.layers, camera.width, camera.height);
   const Rng of_squares(settings.seed, rng_stream(RngUse::square, static_cast<uint64_t>(pass)), 0);
   const ImagePass image{
-      scene, settings, pass, radiance, PixelSquares::draw(square, of_squares), pixels_of_tiles(camera), views, result};
+      scene, settings, pass, radiance, PixelSquares::draw(square, of_squares), rendered_in_tiles(camera),
+      views, result};
   const std::vector<glm::ivec2> tiles = image.squares.tiles_in(image.shown);
   const uint64_t foreseen = tile_count(camera);  // squares that begin before the picture may make more
   std::vector<EyeCounters> counters(tiles.size());

@@ -13,6 +13,9 @@
 
 namespace vpm {
 
+/// The pixels that are rendered: those of tiles, from the corner of the picture, that meet what the camera asks for.
+PixelRect rendered_in_tiles(const Camera& camera);
+
 /// The units of work of a pass's image.
 uint64_t tile_count(const Camera& camera);
 

@@ -43,14 +43,14 @@ KernelPair<double> middle_of(const Pass& pass) {
 // The blur's bias, half its variance times the Laplacian, at three radii: it does not depend on these, and is stated in
 // proportion to theirs. Both pictures have the same photons, so that little noise is left; z-tests at 1e-6. Kernels
 // take up to a tenth of the Laplacian, by terms of higher order.
-TEST(SharedGathers, BlurAsTheirVarianceSays) {
+TEST(SlowSharedGathers, BlurAsTheirVarianceSays) {
   const Scene scene = lamp_over_floor();
   const double pixel = 2.0 * std::tan(5.0 * kPiD / 180.0) * 2.0 / 8.0;  // m, on the floor
   const double variance = variance_in_square(4) * pixel * pixel;        // m^2
   for (const float radius : {0.6f, 0.45f, 0.36f}) {
     ASSERT_LT(variance, kMostBlur * variance_of({.radius = radius}, 2));
     Moments value, change, correction, stated;
-    for (int pass = 0; pass < 64; ++pass) {
+    for (int pass = 0; pass < 40; ++pass) {
       const KernelPair<double> alone = middle_of(render_photon_pass(scene, settings_of(radius, 1), pass));
       const KernelPair<double> shared = middle_of(render_photon_pass(scene, settings_of(radius, 4), pass));
       value.add(alone.value);

@@ -175,7 +175,7 @@ class EyePath {
 
   /// Adds what other rays see of the lamps that this path leaves to them.
   void add_lamp_images() {
-    if (look_ == LookFor::no_lamp_images) radiance_ += lamps_by_images(c_, work_);
+    if (look_ == LookFor::no_lamp_images) radiance_ += lamps_by_images(c_, work_, LampImages::kRays);
   }
 
   bool is_straight() const { return at_.events == 0; }
@@ -387,13 +387,13 @@ void eye_radiance(const EyeContext& context, std::span<EyeRay> rays) {
   }
 }
 
-Rgb lamps_by_images(const EyeContext& context, EyeWork& work) {
+Rgb lamps_by_images(const EyeContext& context, EyeWork& work, uint32_t rays) {
   const Camera& camera = context.scene.camera;
   const auto width = static_cast<size_t>(camera.width);
   const Vec2 middle = Vec2(work.pixel % width, work.pixel / width) + 0.5f;
-  const EvenPoints places(LampImages::kRays, work.rng);
+  const EvenPoints places(rays, work.rng);
   Rgb sum(0.0f);
-  for (uint32_t i = 0; i < LampImages::kRays; ++i) {
+  for (uint32_t i = 0; i < rays; ++i) {
     const uint64_t place = places[i];
     work.rng.lead({&place, 1});
     const Vec2 film = middle + sample_filter(camera.filter, work.rng.uniform2());
@@ -402,7 +402,7 @@ Rgb lamps_by_images(const EyeContext& context, EyeWork& work) {
     path.follow();
     sum += path.radiance().value;
   }
-  return sum / static_cast<float>(LampImages::kRays);
+  return sum / static_cast<float>(rays);
 }
 
 }  // namespace vpm

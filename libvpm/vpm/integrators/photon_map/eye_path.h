@@ -25,8 +25,8 @@ KernelEstimate eye_radiance(const EyeContext& context, const Ray& camera_ray, Ey
 /// followed together, so that estimators can gather for all of them at once.
 void eye_radiance(const EyeContext& context, std::span<EyeRay> rays);
 
-/// The light of lamps that the pixel of `work` shows by way of mirrors and glass, W/(m^2 sr): the mean over
-/// LampImages::kRays rays, which lie evenly in the pixel.
-Rgb lamps_by_images(const EyeContext& context, EyeWork& work);
+/// The light of lamps that the pixel of `work` shows by way of mirrors and glass, W/(m^2 sr): the mean over so many
+/// rays, which lie evenly in the pixel.
+Rgb lamps_by_images(const EyeContext& context, EyeWork& work, uint32_t rays);
 
 }  // namespace vpm

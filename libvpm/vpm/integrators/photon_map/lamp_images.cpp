@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "vpm/base/parallel.h"
+#include "vpm/film/image_pass.h"
 #include "vpm/integrators/photon_map/eye_path.h"
 
 namespace vpm {
@@ -21,28 +22,32 @@ bool has_images(const Scene& scene) {
 
 LampImages::LampImages(const Scene& scene, uint64_t seed, int max_events) {
   if (!has_images(scene)) return;
+  constexpr uint32_t kLooks = 4;  // rays; a pixel goes by those of its neighbours, too
   const Camera& camera = scene.camera;
-  const auto width = static_cast<size_t>(camera.width), height = static_cast<size_t>(camera.height);
-  const PixelRect rendered = camera.rendered();
-  std::vector<uint8_t> seen(width * height);
+  const int width = camera.width, height = camera.height;
+  const PixelRect tiles = rendered_in_tiles(camera);
+  const PixelRect looked{std::max(tiles.x0 - 1, 0), std::max(tiles.y0 - 1, 0), std::min(tiles.x1 + 1, width),
+                         std::min(tiles.y1 + 1, height)};
+  const auto number = [&](int x, int y) { return static_cast<size_t>(y) * static_cast<size_t>(width) + x; };
+  std::vector<uint8_t> seen(number(0, height));
   const Estimators none;
   const EyeContext context{scene, none, max_events};
-  parallel_for_chunks(static_cast<size_t>(rendered.height()), 1, [&](size_t row, size_t, size_t) {
+  parallel_for_chunks(static_cast<size_t>(looked.height()), 1, [&](size_t row, size_t, size_t) {
     EyeCounters counters;
     EyeScratch scratch;
-    for (int x = rendered.x0; x < rendered.x1; ++x) {
-      const size_t pixel = (static_cast<size_t>(rendered.y0) + row) * width + static_cast<size_t>(x);
+    for (int x = looked.x0; x < looked.x1; ++x) {
+      const size_t pixel = number(x, looked.y0 + static_cast<int>(row));
       Rng rng(seed, rng_stream(RngUse::lamp, 0), pixel);
       EyeWork work{rng, counters, scratch, pixel};
-      seen[pixel] = is_black(lamps_by_images(context, work)) ? 0 : 1;
+      seen[pixel] = is_black(lamps_by_images(context, work, kLooks)) ? 0 : 1;
     }
   });
-  marked_ = seen;
-  for (size_t y = 0; y < height; ++y)
-    for (size_t x = 0; x < width; ++x)
-      if (seen[y * width + x])
-        for (size_t v = std::max<size_t>(y, 1) - 1; v < std::min(y + 2, height); ++v)
-          for (size_t u = std::max<size_t>(x, 1) - 1; u < std::min(x + 2, width); ++u) marked_[v * width + u] = 1;
+  marked_.resize(seen.size());
+  for (int y = looked.y0; y < looked.y1; ++y)
+    for (int x = looked.x0; x < looked.x1; ++x)
+      for (int v = std::max(y - 1, looked.y0); v < std::min(y + 2, looked.y1); ++v)
+        for (int u = std::max(x - 1, looked.x0); u < std::min(x + 2, looked.x1); ++u)
+          marked_[number(u, v)] |= seen[number(x, y)];
 }
 
 }  // namespace vpm
