@@ -55,6 +55,10 @@ TEST(SharedGather, PeaksOfPhaseFunctionsAreNotBlurred) {
     EXPECT_GT(variance, 1e-4f * (1.0f - std::abs(g)) * (1.0f - std::abs(g))) << g;
   }
   EXPECT_FALSE(is_smooth_over(Phase(Tabulated{}), 1e-12f));
+  // A narrow lobe that has little of the light.
+  EXPECT_FALSE(is_smooth_over(Phase(TwoLobes(0.99f, 0.0f, 0.001f)), 1e-4f));
+  EXPECT_TRUE(is_smooth_over(Phase(TwoLobes(0.5f, 0.0f, 0.001f)), 1e-4f));
+  EXPECT_FALSE(is_smooth_over(Phase(Droplets(50.0f)), 1e-4f));
 }
 
 TEST(SharedGather, RaysSeeTheSame) {

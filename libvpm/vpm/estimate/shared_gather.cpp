@@ -11,16 +11,20 @@ constexpr float kPartOfPeak = 0.05f;
 constexpr float kLengths = 0.05f;  // by which alike segments may differ, of their length
 constexpr float kCosine = 0.95f;   // between the normals at their ends, at the least
 
+template <class P>
+bool is_smooth(const P& phase, float variance) {
+  if constexpr (std::is_same_v<P, Tabulated>)
+    return false;
+  else if constexpr (requires { phase.first; })  // two, of which the one may be all of a narrow peak
+    return is_smooth(phase.a, variance) && is_smooth(phase.b, variance);
+  else
+    return variance * kPi * std::max(phase.value(1.0f), phase.value(-1.0f)) <= kPartOfPeak * kPartOfPeak;
+}
+
 }  // namespace
 
 bool is_smooth_over(const Phase& phase, float variance) {
-  return std::visit(
-      [&]<class P>(const P& p) {
-        if constexpr (std::is_same_v<P, Tabulated>) return false;
-        const float peak = std::max(p.value(1.0f), p.value(-1.0f));  // 1/sr
-        return variance <= kPartOfPeak * kPartOfPeak / (kPi * peak);
-      },
-      phase);
+  return std::visit([&](const auto& p) { return is_smooth(p, variance); }, phase);
 }
 
 bool is_alike(const SeenSegment& a, const SeenSegment& b) {

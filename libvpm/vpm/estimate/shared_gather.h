@@ -52,6 +52,7 @@ class SharedGather {
   };
   struct OfSegment {
     SeenSegment seen;
+    Rgb throughput{1.0f};  // of the ray at the start of the segment, which light is times
     std::array<std::optional<KernelEstimate>, kMostEstimators> light;  // by estimator, W/(m^2 sr) at the camera
     std::optional<AtSurface> surface;                                  // at the end
   };
@@ -62,10 +63,11 @@ class SharedGather {
   float variance() const { return variance_; }
 
   /// Begins the next segment of the ray that gathers; null where there is no room for it.
-  OfSegment* begin(const SeenSegment& seen) {
+  OfSegment* begin(const SeenSegment& seen, const Rgb& throughput) {
     if (count_ == kMostSegments) return nullptr;
     OfSegment& segment = segments_[count_++] = {};
     segment.seen = seen;
+    segment.throughput = throughput;
     return &segment;
   }
   /// Segment number `number` of the ray that gathers; null where another ray sees something else there.

@@ -29,7 +29,7 @@ glm::ivec2 pixel_at(size_t block, const glm::ivec2& place, const PixelRect& rend
 /// What the rays of a block find, sample by sample of its pixels.
 void follow_block(const Scene& scene, const RenderSettings& settings, const RaysOfPass& ready, uint64_t stream,
                   size_t block, std::span<KernelEstimate> found, EyeCounters& counters) {
-  PixelSquares squares = PixelSquares::draw(ready.square, Rng(settings.seed, rng_stream(RngUse::square, 0), block));
+  PixelSquares squares = PixelSquares::draw(ready.square, Rng(settings.seed, stream, ~static_cast<uint64_t>(block)));
   squares.first = {0, 0};
   const PixelOrder order({0, 0}, {kEdge, kEdge}, squares);
   OrderedRays rays(scene.camera, order, squares.edge, counters);

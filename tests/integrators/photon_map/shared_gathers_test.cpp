@@ -136,6 +136,42 @@ TEST(SharedGathers, LeaveLightAsItIs) {
   }
 }
 
+// Light that is shared behind a medium has the throughput of each ray itself: a ball that absorbs, of an optical depth
+// of up to 4, before fog. Pixels of the same photons may differ by what the blur moves, and no more.
+TEST(SharedGathers, KeepTheThroughputOfEachRay) {
+  Scene scene;
+  scene.media = {make_medium(nullptr, Rgb(0.5f), 0.8f), make_medium(nullptr, Rgb(8.0f), 0.0f)};
+  const Interface fog{0, kVacuum}, ball{1, kVacuum};
+  add_shape(scene, box_mesh(Vec3d(-2, -2, -2), Vec3d(2, 2, 0)), Boundary{}, &fog);
+  add_shape(scene, SphereShape{Vec3(0.0f, 0.0f, 1.0f), 0.25f}, Boundary{}, &ball);
+  scene.lights.push_back(SphereLight{Vec3(0.0f, 3.0f, -1.0f), 0.2f, Rgb(100.0f)});
+  scene.camera = make_camera(Vec3(0, 0, 3), Vec3(0.0f), Vec3(0, 1, 0), 40.0f, {64, 64});
+  scene.geometry.commit();
+  finish(scene);
+  RenderSettings settings = in_fog("beam");
+  settings.photons.emitted = 40'000;
+  const auto mean_of = [&](int square) {
+    RenderSettings own = settings;
+    own.square = square;
+    std::vector<double> mean(64 * 64);
+    for (int pass = 0; pass < 8; ++pass) {
+      const Pass one = render_photon_pass(scene, own, pass);
+      EXPECT_EQ(one.statistics.eye.shared_gathers > 1000, square > 1);
+      for (size_t i = 0; i < mean.size(); ++i) mean[i] += one.image.pixels[i].g / 8.0;
+    }
+    return mean;
+  };
+  const std::vector<double> alone = mean_of(1), shared = mean_of(2);
+  double most = 0.0, least = kInfinity;
+  for (size_t i = 0; i < alone.size(); ++i) {
+    ASSERT_GT(alone[i], 0.0);
+    most = std::max(most, alone[i]);
+    least = std::min(least, alone[i]);
+    EXPECT_NEAR(shared[i] / alone[i], 1.0, 0.25) << i % 64 << ' ' << i / 64;
+  }
+  EXPECT_GT(most, 30.0 * least);
+}
+
 // Nothing is shared where kernels are narrow beside pixels or have no one variance, in narrow peaks, and by shadow
 // rays.
 TEST(SharedGathers, AreNotMadeWhereTheyWouldBlur) {

@@ -65,7 +65,7 @@ struct SurfaceView {
 /// Estimates the radiance that leaves a surface in the direction -`travel`, W/(m^2 sr), without its own emission.
 class SurfaceEstimator : public Estimator {
  public:
-  /// The part that rays from the surface find.
+  /// The part that is each ray's own: what rays from the surface find, and photons in discs of the pixel's own radius.
   virtual KernelEstimate found_by_rays(const SurfaceView&, EyeWork&) const { return {}; }
   /// The part that photons around the place bring, which neighbouring rays may share.
   virtual KernelEstimate found_by_photons(const SurfaceView&, EyeWork&) const { return {}; }

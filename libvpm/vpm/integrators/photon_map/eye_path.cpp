@@ -53,19 +53,26 @@ class SharedPath {
  public:
   SharedPath(SharedGather* shared, bool leads) : shared_(shared), leads_(leads) {}
 
-  /// Begins a segment; `straight`: no event lies before it.
-  void begin(const SeenSegment& seen, bool straight) {
+  /// Begins a segment; `straight`: no event lies before it. Behind what the ray that gathers does not see nothing is
+  /// shared.
+  void begin(const SeenSegment& seen, const Rgb& throughput, bool straight) {
     given_ = nullptr;
     taken_ = nullptr;
     if (!shared_ || !straight) return;
-    if (leads_)
-      given_ = shared_->begin(seen);
-    else
-      taken_ = shared_->find(number_++, seen);
+    if (leads_) {
+      given_ = shared_->begin(seen, throughput);
+      return;
+    }
+    taken_ = shared_->find(number_++, seen);
+    if (!taken_) shared_ = nullptr;
   }
-  /// The light of estimator number `estimator` of media; null where the path is to gather for itself.
-  const KernelEstimate* of_media(size_t estimator) const {
-    return taken_ && taken_->light[estimator] ? &*taken_->light[estimator] : nullptr;
+  /// The light of estimator number `estimator` of media for a ray of that throughput; nothing where the path is to
+  /// gather for itself.
+  std::optional<KernelEstimate> of_media(size_t estimator, const Rgb& throughput) const {
+    if (!taken_ || !taken_->light[estimator]) return {};
+    const Rgb of = taken_->throughput;
+    if (!(std::min({of.r, of.g, of.b}) > 0.0f)) return {};
+    return *taken_->light[estimator] * (throughput / of);
   }
   const SharedGather::AtSurface* at_surface() const { return taken_ && taken_->surface ? &*taken_->surface : nullptr; }
   /// The segment that others take from; null where none do.
@@ -119,7 +126,7 @@ class EyePath {
     const Vec3 end = met_ ? towards(met_.hits[0], -ray.direction) : Vec3(0.0f);
     segment_.emplace(c_.scene, Segment{ray, interval, at_.state.medium, seen()}, Borders{at_.start, end});
     const int shape = met_ ? static_cast<int>(met_.hits[0].shape) : -1;
-    shared_.begin({at_.state.medium, shape, end, interval.t1}, is_straight());
+    shared_.begin({at_.state.medium, shape, end, interval.t1}, seen(), is_straight());
     return true;
   }
 
@@ -133,7 +140,7 @@ class EyePath {
 
   /// Adds what an estimator of media has found for the ray that gathers for this one; false where nobody does.
   bool take(size_t estimator) {
-    const KernelEstimate* light = shared_.of_media(estimator);
+    const std::optional<KernelEstimate> light = shared_.of_media(estimator, segment_->throughput);
     if (!light) return false;
     count(work_.counters.shared_gathers);
     radiance_ += *light;

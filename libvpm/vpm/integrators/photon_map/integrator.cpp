@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 #include <memory>
+#include <mutex>
+#include <optional>
 
 #include "vpm/integrators/integrator.h"
 #include "vpm/integrators/photon_map/eye_path.h"
@@ -13,10 +15,24 @@
 namespace vpm {
 namespace {
 
+/// The images of lamps, looked for before the first pass that is made.
+class FoundOnce {
+ public:
+  const LampImages& of(const Scene& scene, const RenderSettings& settings) {
+    std::call_once(once_, [&] { images_.emplace(scene, settings.seed, settings.max_events); });
+    return *images_;
+  }
+
+ private:
+  std::once_flag once_;
+  std::optional<LampImages> images_;
+};
+
 PassMaker passes_of_photon_maps(const Scene& scene, const RenderSettings& settings) {
-  const auto lamps = std::make_shared<const LampImages>(scene, settings.seed, settings.max_events);
+  const auto lamps = std::make_shared<FoundOnce>();
   const auto make = [&scene, &settings, lamps](int pass, const RenderResult& so_far, const PassProgress& progress) {
-    return render_photon_pass_after(so_far.discs, scene, settings, {pass, progress, {}, lamps.get()});
+    const LampImages& images = lamps->of(scene, settings);
+    return render_photon_pass_after(so_far.discs, scene, settings, {pass, progress, {}, &images});
   };
   return {make, tile_count(scene.camera), block_count(settings), settings.radii == RadiusSchedule::per_pixel};
 }

@@ -17,7 +17,7 @@ class LampImages {
   /// Looks for them by a few rays through each pixel, where the scene has both lamps and what shows them.
   LampImages(const Scene& scene, uint64_t seed, int max_events);
 
-  /// The rays by which each pass sees lamps in a pixel in which one was found, or in a neighbour.
+  /// The rays by which each pass sees lamps in a pixel whose neighbourhood shows them unevenly.
   static constexpr uint32_t kRays = 16;
   bool in(size_t pixel) const { return !marked_.empty() && marked_[pixel] != 0; }
 

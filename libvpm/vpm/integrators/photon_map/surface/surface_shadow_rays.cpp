@@ -36,11 +36,12 @@ Rgb SurfaceShadowRays::sent(const SurfaceView& view, const Receiver& side, EyeWo
   return result;
 }
 
-DirectSample SurfaceShadowRays::from_even_sky(int light, const Rgb& radiance, const Receiver& side,
-                                              const ShadowRays& rays) const {
-  const Vec3 direction = cosine_hemisphere(side.normal, rays.rng.uniform2());
-  const float pdf = glm::dot(side.normal, direction) / kPi;
-  if (!(pdf > 0.0f)) return {};
+DirectSample SurfaceShadowRays::from_even_sky(int light, const Rgb& radiance, const Vec3& shading_normal,
+                                              const Receiver& side, const ShadowRays& rays) const {
+  const Vec3 normal = glm::dot(shading_normal, side.normal) < 0.0f ? -shading_normal : shading_normal;
+  const Vec3 direction = cosine_hemisphere(normal, rays.rng.uniform2());
+  const float pdf = glm::dot(normal, direction) / kPi;
+  if (!(pdf > 0.0f) || !(glm::dot(side.normal, direction) > 0.0f)) return {};
   return {direction, radiance / pdf * visibility(rays, {side.point, direction}, kInfinity, light, side.medium), pdf};
 }
 
@@ -48,7 +49,8 @@ Rgb SurfaceShadowRays::sent_of(int light, const SurfaceView& view, const Receive
   count(work.counters.shadow_rays);
   const ShadowRays rays{scene_, *transmittance_, work.rng, work.counters.walk};
   const std::optional<Rgb> even = even_radiance(scene_.lights[light]);
-  const DirectSample sample = even ? from_even_sky(light, *even, side, rays) : sample_direct(rays, light, side);
+  const DirectSample sample =
+      even ? from_even_sky(light, *even, view.hit.shading_normal, side, rays) : sample_direct(rays, light, side);
   if (is_black(sample.irradiance)) return Rgb(0.0f);
   const ScatterValue scattered = scatter_value(view.material, view.hit, view.travel, sample.direction);
   return scattered.value * scattered.radiance_scale * sample.irradiance;

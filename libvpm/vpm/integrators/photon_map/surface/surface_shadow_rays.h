@@ -21,7 +21,8 @@ class SurfaceShadowRays {
  private:
   Rgb sent(const SurfaceView& view, const Receiver& side, EyeWork& work) const;
   /// By a ray to a light of no place and no direction: as light comes to a surface, by the cosine law.
-  DirectSample from_even_sky(int light, const Rgb& radiance, const Receiver& side, const ShadowRays& rays) const;
+  DirectSample from_even_sky(int light, const Rgb& radiance, const Vec3& shading_normal, const Receiver& side,
+                             const ShadowRays& rays) const;
   /// Of one light, by one ray.
   Rgb sent_of(int light, const SurfaceView& view, const Receiver& side, EyeWork& work) const;
 
