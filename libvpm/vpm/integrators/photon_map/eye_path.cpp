@@ -13,7 +13,8 @@
 namespace vpm {
 namespace {
 
-constexpr float kAlikeShading = 0.999f;  // the cosine between normals that light is shared at, at the least
+constexpr float kAlikeShading = 0.999f;   // the cosine between normals that light is shared at, at the least
+constexpr float kMostThroughput = 16.0f;  // of a ray that takes light, over that of the one that gives it
 
 /// A place on an eye path, from which it goes on.
 struct Branch {
@@ -70,9 +71,9 @@ class SharedPath {
   /// gather for itself.
   std::optional<KernelEstimate> of_media(size_t estimator, const Rgb& throughput) const {
     if (!taken_ || !taken_->light[estimator]) return {};
-    const Rgb of = taken_->throughput;
-    if (!(std::min({of.r, of.g, of.b}) > 0.0f)) return {};
-    return *taken_->light[estimator] * (throughput / of);
+    // Light of far less throughput may have lost its digits.
+    if (!glm::all(glm::greaterThan(kMostThroughput * taken_->throughput, throughput))) return {};
+    return *taken_->light[estimator] * (throughput / taken_->throughput);
   }
   const SharedGather::AtSurface* at_surface() const { return taken_ && taken_->surface ? &*taken_->surface : nullptr; }
   /// The segment that others take from; null where none do.
